@@ -34,10 +34,8 @@ interp::ConvexHull hull_of(const Points& points) {
 
 /// Widens `area` to hold `mark`.
 inline void take_in(interp::Rectangle& area, model::MarkPoint mark) {
-  area = {std::min(area.x_min, mark.x_mm),
-          std::max(area.x_max, mark.x_mm),
-          std::min(area.y_min, mark.y_mm),
-          std::max(area.y_max, mark.y_mm)};
+  area = {std::min(area.x_min, mark.x_mm), std::max(area.x_max, mark.x_mm),
+          std::min(area.y_min, mark.y_mm), std::max(area.y_max, mark.y_mm)};
 }
 
 /// Nodes reach to the borders; cells have their points in their middles.
@@ -45,9 +43,7 @@ enum class RasterOf { nodes, cells };
 
 /// Row by row from y_min, each from x_min. A single row or column of nodes lies in the middle.
 /// Symmetric about the middle to the last bit, and exactly there where a row or column is.
-inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over,
-                                            int columns,
-                                            int rows,
+inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over, int columns, int rows,
                                             RasterOf of) {
   const auto share = [of](int i, int count) {
     if (of == RasterOf::cells) return (i + 0.5) / count - 0.5;

@@ -81,8 +81,8 @@ double rounding_sigma_mm(const std::vector<double>& readings_mm) {
     for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
   }
   sort(steps, std::greater<>());
-  const auto step = std::find_if(
-      steps.begin(), steps.end(), [&](double one) { return are_multiples(readings_mm, one); });
+  const auto step = std::find_if(steps.begin(), steps.end(),
+                                 [&](double one) { return are_multiples(readings_mm, one); });
   return step == steps.end() ? 0.0 : *step / std::sqrt(12.0);
 }
 

@@ -40,8 +40,8 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
   const double u = (position - low) / step;
   const double inside = std::clamp(u, 0.0, cells);
   const double cell = std::min(std::floor(inside), cells - 1.0);
-  AxisSupport result{
-      static_cast<Eigen::Index>(cell), splines(inside - cell, 0), splines(inside - cell, 1)};
+  AxisSupport result{static_cast<Eigen::Index>(cell), splines(inside - cell, 0),
+                     splines(inside - cell, 1)};
   const double beyond = u - inside;
   for (std::size_t i = 0; i < 4; ++i) {
     result.value[i] += beyond * result.slope[i];
@@ -53,10 +53,10 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
 // Integral over the axis of the product of two functions' derivatives of one order, for all pairs.
 // Products of cubics have degree six at most: four Gauss points are exact.
 Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, int order) {
-  constexpr std::array<double, 4> kNode = {
-      0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
-  constexpr std::array<double, 4> kWeight = {
-      0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
+  constexpr std::array<double, 4> kNode = {0.069431844202973712, 0.330009478207571868,
+                                           0.669990521792428132, 0.930568155797026288};
+  constexpr std::array<double, 4> kWeight = {0.173927422568726929, 0.326072577431273071,
+                                             0.326072577431273071, 0.173927422568726929};
   Eigen::Matrix4d cell = Eigen::Matrix4d::Zero();
   for (std::size_t g = 0; g < 4; ++g) {
     const Four b = splines(kNode[g], order);
@@ -71,9 +71,7 @@ Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, int order) {
   return gram;
 }
 
-void add_kronecker(Eigen::MatrixXd& sum,
-                   double factor,
-                   const Eigen::MatrixXd& y_part,
+void add_kronecker(Eigen::MatrixXd& sum, double factor, const Eigen::MatrixXd& y_part,
                    const Eigen::MatrixXd& x_part) {
   const Eigen::Index m = x_part.rows();
   for (Eigen::Index i = 0; i < y_part.rows(); ++i) {
@@ -96,8 +94,8 @@ BsplineBasis::BsplineBasis(const Rectangle& rectangle, int nx, int ny)
     throw std::invalid_argument(fmt::format("a B-spline basis of {} x {} intervals", nx, ny));
   }
   if (!(std::isfinite(step_x_) && std::isfinite(step_y_) && step_x_ > 0.0 && step_y_ > 0.0)) {
-    throw std::invalid_argument(fmt::format(
-        "a B-spline basis over a rectangle of {} x {}", rectangle.width(), rectangle.height()));
+    throw std::invalid_argument(fmt::format("a B-spline basis over a rectangle of {} x {}",
+                                            rectangle.width(), rectangle.height()));
   }
 }
 
@@ -126,8 +124,7 @@ Eigen::VectorXd BsplineBasis::row(double x, double y) const {
 }
 
 ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
-                                     double x,
-                                     double y) const {
+                                     double x, double y) const {
   if (coefficients.size() != size()) {
     throw std::invalid_argument(
         fmt::format("{} coefficients for a basis of {} functions", coefficients.size(), size()));
@@ -151,9 +148,7 @@ Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
   Eigen::MatrixXd penalty = Eigen::MatrixXd::Zero(size(), size());
   double binomial = 1.0;
   for (int in_y = 0; in_y <= order; ++in_y) {
-    add_kronecker(penalty,
-                  binomial,
-                  axis_gram(columns_y_, step_y_, in_y),
+    add_kronecker(penalty, binomial, axis_gram(columns_y_, step_y_, in_y),
                   axis_gram(columns_x_, step_x_, order - in_y));
     binomial *= static_cast<double>(order - in_y) / (in_y + 1);
   }

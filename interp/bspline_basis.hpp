@@ -49,8 +49,7 @@ class BsplineBasis {
   Eigen::VectorXd row(double x, double y) const;
 
   /// Value and gradient of the surface with these coefficients.
-  ValueGradient evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
-                         double x,
+  ValueGradient evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients, double x,
                          double y) const;
 
   /// P with c' P c = integral over the rectangle of the squared derivatives of that order (exact):

@@ -52,9 +52,7 @@ CheckedField::CheckedField(Function function, const Options& options)
     : function_(std::move(function)), options_(options) {
   if (!(options.spacing > 0.0) || !(options.bound >= 0.0) || options.halvings < 0) {
     throw std::invalid_argument(fmt::format("a field of spacing {}, error {} and {} halvings",
-                                            options.spacing,
-                                            options.bound,
-                                            options.halvings));
+                                            options.spacing, options.bound, options.halvings));
   }
   for (int k = 0; k <= options.halvings; ++k) {
     levels_.push_back({std::ldexp(options.spacing, -k), {}, {}});
@@ -110,8 +108,7 @@ std::optional<Value> CheckedField::evaluate(double x, double y) {
   return function_(x, y);
 }
 
-std::optional<std::array<Nodes, 2>> CheckedField::nodes_around(Level& level,
-                                                               std::int64_t column,
+std::optional<std::array<Nodes, 2>> CheckedField::nodes_around(Level& level, std::int64_t column,
                                                                std::int64_t row) {
   std::array<Nodes, 2> nodes;
   bool known = true;

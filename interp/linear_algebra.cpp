@@ -60,12 +60,8 @@ void solve_triangle(const Operand& lower, Eigen::Ref<MatrixXd> x) {
 void add_product(Eigen::Ref<MatrixXd> c, double scale, const Operand& a, const Operand& b) {
   if (c.rows() != a.rows() || c.cols() != b.columns() || a.columns() != b.rows() ||
       (a.is_transposed() && b.is_transposed())) {
-    throw std::invalid_argument(fmt::format("a product {} x {} of {} x {} and {} x {}",
-                                            c.rows(),
-                                            c.cols(),
-                                            a.rows(),
-                                            a.columns(),
-                                            b.rows(),
+    throw std::invalid_argument(fmt::format("a product {} x {} of {} x {} and {} x {}", c.rows(),
+                                            c.cols(), a.rows(), a.columns(), b.rows(),
                                             b.columns()));
   }
   if (c.size() > 0 && a.columns() > 0) {
@@ -162,8 +158,8 @@ Tridiagonal::Tridiagonal(MatrixXd matrix)
   if (n == 0) return;
   coefficients_.resize(n - 1);
   subdiagonal_.resize(n - 1);
-  kernels::chosen().tridiagonalise(
-      output(reflections_), coefficients_.data(), diagonal_.data(), subdiagonal_.data());
+  kernels::chosen().tridiagonalise(output(reflections_), coefficients_.data(), diagonal_.data(),
+                                   subdiagonal_.data());
 }
 
 void Tridiagonal::rotate_in_place(MatrixXd& x) const {

@@ -53,10 +53,7 @@ void add_few(Output c, double scale, const Entries& a, const Entries& b, bool sy
 template <class Left, class Right>
 void add_many(Output c, double scale, const Left& a, const Right& b) {
   Matrix sum = stored(c);
-  Eigen::internal::generic_product_impl<Left,
-                                        Right,
-                                        Eigen::DenseShape,
-                                        Eigen::DenseShape,
+  Eigen::internal::generic_product_impl<Left, Right, Eigen::DenseShape, Eigen::DenseShape,
                                         Eigen::GemmProduct>::scaleAndAddTo(sum, a, b, scale);
 }
 
@@ -137,7 +134,7 @@ void rotate(Input a, const double* reflections, Output x) {
 
 }  // namespace
 
-const Table CHAINTRUE_KERNELS = {
-    add_product, add_square, factorise, solve_triangle, tridiagonalise, rotate};
+const Table CHAINTRUE_KERNELS = {add_product,    add_square,     factorise,
+                                 solve_triangle, tridiagonalise, rotate};
 
 }  // namespace chaintrue::linear::kernels

@@ -113,9 +113,7 @@ double ConvexHull::area() const {
   return 0.5 * twice;
 }
 
-ValueGradient evaluate(const Surface& surface,
-                       const ConvexHull& hull,
-                       const RegionPolicy& policy,
+ValueGradient evaluate(const Surface& surface, const ConvexHull& hull, const RegionPolicy& policy,
                        const PlanePoint& at) {
   if (!(policy.edge_width >= 0.0) || !(policy.fade_width > 0.0)) {
     throw std::invalid_argument(
@@ -132,15 +130,13 @@ ValueGradient evaluate(const Surface& surface,
   // From a corner the foot does not move: the direction turns instead.
   double across = is_clamped && !near.on_edge ? 0.0 : along(t, foot);
   if (!is_clamped && near.on_edge) across += near.distance * turn(surface, near, t);
-  const ValueGradient z{foot.value + near.distance * outward,
-                        outward * n.x + across * t.x,
+  const ValueGradient z{foot.value + near.distance * outward, outward * n.x + across * t.x,
                         outward * n.y + across * t.y};
   if (policy.outside != OutsidePolicy::fade) return z;
   const double s = std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
   const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
   const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
-  return {weight * z.value,
-          weight * z.dx + fall * n.x * z.value,
+  return {weight * z.value, weight * z.dx + fall * n.x * z.value,
           weight * z.dy + fall * n.y * z.value};
 }
 

@@ -53,9 +53,7 @@ struct RegionPolicy {
 /// Continuous across the hull and through every policy's zones; `fade` and `linear` are C1 across the
 /// hull's edges. The gradient next to an edge uses a difference of the surface's gradient along the
 /// edge (error about 1e-6 of a second derivative). Zero if the place is not finite.
-ValueGradient evaluate(const Surface& surface,
-                       const ConvexHull& hull,
-                       const RegionPolicy& policy,
+ValueGradient evaluate(const Surface& surface, const ConvexHull& hull, const RegionPolicy& policy,
                        const PlanePoint& at);
 
 }  // namespace chaintrue::interp

@@ -14,8 +14,7 @@ namespace {
 
 /// The spline along one line at a hole as weights on the line's nodes, zero at its holes. Empty with
 /// fewer than three present nodes.
-std::optional<Eigen::VectorXd> along(const std::vector<double>& nodes,
-                                     const Eigen::VectorXd& line,
+std::optional<Eigen::VectorXd> along(const std::vector<double>& nodes, const Eigen::VectorXd& line,
                                      double at) {
   std::vector<double> x;
   std::vector<Eigen::Index> present;
@@ -38,11 +37,8 @@ std::optional<FilledGrid> fill_missing(const std::vector<double>& x_nodes,
                                        const Eigen::Ref<const Eigen::MatrixXd>& values) {
   if (values.rows() != static_cast<Eigen::Index>(x_nodes.size()) ||
       values.cols() != static_cast<Eigen::Index>(y_nodes.size())) {
-    throw std::invalid_argument(fmt::format("{} x {} values for {} x {} nodes",
-                                            values.rows(),
-                                            values.cols(),
-                                            x_nodes.size(),
-                                            y_nodes.size()));
+    throw std::invalid_argument(fmt::format("{} x {} values for {} x {} nodes", values.rows(),
+                                            values.cols(), x_nodes.size(), y_nodes.size()));
   }
   FilledGrid result{values, {}};
   const auto is_hole = values.array().isNaN();

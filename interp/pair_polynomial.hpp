@@ -33,9 +33,7 @@ class alignas(64) PairPolynomial {
   }
 
   /// At u and v, which rise by `per_x` and `per_y` with each unit of x and y.
-  [[nodiscard, gnu::always_inline]] PairGradient at(double u,
-                                                    double v,
-                                                    double per_x,
+  [[nodiscard, gnu::always_inline]] PairGradient at(double u, double v, double per_x,
                                                     double per_y) const {
     // Horner's rule for the polynomial in u of each power of v of both surfaces: eight parallel
     // loops that the compiler vectorises.

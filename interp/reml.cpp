@@ -22,10 +22,7 @@ void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
                                 const Eigen::Ref<const Eigen::VectorXd>& y) {
   if (x.cols() != columns() || x.rows() != y.size()) {
     throw std::invalid_argument(fmt::format("{} x {} design rows and {} responses for {} columns",
-                                            x.rows(),
-                                            x.cols(),
-                                            y.size(),
-                                            columns()));
+                                            x.rows(), x.cols(), y.size(), columns()));
   }
   design.conservativeResize(design.rows() + x.rows(), Eigen::NoChange);
   design.bottomRows(x.rows()) = x;
@@ -85,8 +82,7 @@ tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& pro
 }
 
 tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem& problem,
-                                                          double lambda,
-                                                          double sigma2) {
+                                                          double lambda, double sigma2) {
   if (!(lambda > 0.0) || !(sigma2 > 0.0)) {
     throw std::invalid_argument(
         fmt::format("a fit with lambda {} and sigma2 {}; both are positive", lambda, sigma2));
@@ -109,12 +105,11 @@ tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem
 
 tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
     const Eigen::Ref<const Eigen::VectorXd>& residual,
-    const Eigen::Ref<const Eigen::MatrixXd>& spread,
-    double sigma2) {
+    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
   const Eigen::Index m = residual.size();
   if (spread.rows() != m || spread.cols() != m) {
-    throw std::invalid_argument(fmt::format(
-        "{} held-out residuals with a spread of {} x {}", m, spread.rows(), spread.cols()));
+    throw std::invalid_argument(fmt::format("{} held-out residuals with a spread of {} x {}", m,
+                                            spread.rows(), spread.cols()));
   }
   const linear::Cholesky kept(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
   // The rounding of the spread is about 1e-12.

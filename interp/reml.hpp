@@ -122,8 +122,7 @@ struct PenalisedFit {
 /// determine the fit (I - H_gg not positive definite).
 [[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
     const Eigen::Ref<const Eigen::VectorXd>& residual,
-    const Eigen::Ref<const Eigen::MatrixXd>& spread,
-    double sigma2);
+    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2);
 
 /// Prior on lambda and, if unknown, on sigma2.
 enum class SmoothingPrior {

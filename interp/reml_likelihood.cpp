@@ -60,8 +60,7 @@ std::optional<InverseRoot> inverse_root(const Eigen::MatrixXd& matrix) {
 double State::lambda() const { return std::exp(theta[0]); }
 double State::sigma2() const { return std::exp(theta[1]); }
 
-Likelihood::Likelihood(const PenalisedProblem& problem, SmoothingPrior prior)
-    : problem_(problem) {
+Likelihood::Likelihood(const PenalisedProblem& problem, SmoothingPrior prior) : problem_(problem) {
   check(problem);
   if (noise() == NoiseKnowledge::from_repeats) degrees_ = problem.noise.degrees_of_freedom;
   if (prior == SmoothingPrior::avoids_boundary) prior_slope_ = flat_slope();
@@ -127,8 +126,8 @@ std::optional<State> Likelihood::at(const Theta& theta) const {
   auto inverse = inverse_root(h);
   if (!inverse) return std::nullopt;
   state.root = std::move(inverse->root);
-  const Eigen::VectorXd right = shared_prior_ * shared_mean_ +
-                                rows_.transpose() * (state.weights.asDiagonal() * response_);
+  const Eigen::VectorXd right =
+      shared_prior_ * shared_mean_ + rows_.transpose() * (state.weights.asDiagonal() * response_);
   state.shared = state.root * (state.root.transpose() * right);
   state.residual = response_ - rows_ * state.shared;
   const Eigen::VectorXd off = state.shared - shared_mean_;
@@ -198,8 +197,7 @@ Eigen::MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const Sta
     const State state = at(node.theta).value();
     const double root = std::sqrt(node.weight);
     of_ridge.array() += node.weight / (g.array() / state.sigma2() + state.lambda());
-    const Eigen::MatrixXd weighted =
-        (-root / state.lambda() * state.weights).asDiagonal() * rows_;
+    const Eigen::MatrixXd weighted = (-root / state.lambda() * state.weights).asDiagonal() * rows_;
     wide.block(first, k * p, m, p) =
         linear::product(linear::product(to_ridge_, weighted), state.root);
     wide(shared_, Eigen::seqN(k * p, p)) = root * state.root;

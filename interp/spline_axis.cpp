@@ -23,11 +23,8 @@ void check_nodes(const std::vector<double>& nodes) {
     }
     if (i > 0 && !(nodes[i] > nodes[i - 1])) {
       throw std::invalid_argument(
-          fmt::format("nodes of a spline axis must increase: node {} is {}, node {} is {}",
-                      i - 1,
-                      nodes[i - 1],
-                      i,
-                      nodes[i]));
+          fmt::format("nodes of a spline axis must increase: node {} is {}, node {} is {}", i - 1,
+                      nodes[i - 1], i, nodes[i]));
     }
   }
 }
@@ -67,7 +64,8 @@ SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends, int degr
   };
   const auto at_end = static_cast<std::size_t>(degree_ + 1);
   knots_.assign(at_end, nodes_.front());
-  knots_.insert(knots_.end(), nodes_.begin() + 1 + left_out(low), nodes_.end() - 1 - left_out(high));
+  knots_.insert(knots_.end(), nodes_.begin() + 1 + left_out(low),
+                nodes_.end() - 1 - left_out(high));
   knots_.insert(knots_.end(), at_end, nodes_.back());
   const auto functions = static_cast<Eigen::Index>(knots_.size() - at_end);
   Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(functions, functions);

@@ -9,7 +9,8 @@
 
 // A point is evaluated with AVX2 where the processor has it; contraction to fused multiply-add is off,
 // so both ways give the same bits.
-#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define CHAINTRUE_CLONES [[gnu::target_clones("avx2", "default")]]
 #else
 #define CHAINTRUE_CLONES
@@ -109,8 +110,8 @@ CHAINTRUE_CLONES PairGradient SplinePair::at(double x, double y) const {
   const double u = x_.locate(x, i);
   const double v = y_.locate(y, j);
   const auto columns = static_cast<std::ptrdiff_t>(x_.intervals.size());
-  return cells_.data()[j * columns + i].at(
-      u, v, x_.intervals.data()[i].per_length, y_.intervals.data()[j].per_length);
+  return cells_.data()[j * columns + i].at(u, v, x_.intervals.data()[i].per_length,
+                                           y_.intervals.data()[j].per_length);
 }
 
 }  // namespace chaintrue::interp

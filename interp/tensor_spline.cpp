@@ -13,10 +13,9 @@ namespace {
 void set_edge(Eigen::Ref<Eigen::VectorXd> edge, const Eigen::VectorXd& slopes, const char* name) {
   if (slopes.size() == 0) return;
   if (slopes.size() != edge.size()) {
-    throw std::invalid_argument(fmt::format("slopes along the edge {}: {} given, its axis has {} nodes",
-                                            name,
-                                            slopes.size(),
-                                            edge.size()));
+    throw std::invalid_argument(
+        fmt::format("slopes along the edge {}: {} given, its axis has {} nodes", name,
+                    slopes.size(), edge.size()));
   }
   if (!slopes.allFinite()) {
     throw std::invalid_argument(fmt::format("slopes along the edge {} are not finite", name));
@@ -26,14 +25,11 @@ void set_edge(Eigen::Ref<Eigen::VectorXd> edge, const Eigen::VectorXd& slopes, c
 
 }  // namespace
 
-TensorSpline::TensorSpline(std::vector<double> x_nodes,
-                           std::vector<double> y_nodes,
-                           const Eigen::Ref<const Eigen::MatrixXd>& values,
-                           const TensorEnds& ends,
+TensorSpline::TensorSpline(std::vector<double> x_nodes, std::vector<double> y_nodes,
+                           const Eigen::Ref<const Eigen::MatrixXd>& values, const TensorEnds& ends,
                            const EdgeSlopes& slopes)
     : TensorSpline(std::make_shared<const TensorAxes>(std::move(x_nodes), std::move(y_nodes), ends),
-                   values,
-                   slopes) {}
+                   values, slopes) {}
 
 TensorSpline::TensorSpline(std::shared_ptr<const TensorAxes> axes,
                            const Eigen::Ref<const Eigen::MatrixXd>& values,
@@ -62,8 +58,7 @@ TensorSpline::TensorSpline(std::shared_ptr<const TensorAxes> axes,
     Eigen::MatrixXd to_corners(nx, 2);
     to_corners << free_axis.slope_weights(free_axis.nodes().front()),
         free_axis.slope_weights(free_axis.nodes().back());
-    conditions.bottomRightCorner(2, 2) =
-        to_corners.transpose() * conditions.topRightCorner(nx, 2);
+    conditions.bottomRightCorner(2, 2) = to_corners.transpose() * conditions.topRightCorner(nx, 2);
   }
   const Eigen::MatrixXd along_x = axes_->x.coefficients(conditions);
   coefficients_ = axes_->y.coefficients(along_x.transpose()).transpose();

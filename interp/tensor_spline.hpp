@@ -38,9 +38,7 @@ struct EdgeSlopes {
 
 /// Two solved axes, shared by surfaces on the same grid.
 struct TensorAxes {
-  TensorAxes(std::vector<double> x_nodes,
-             std::vector<double> y_nodes,
-             const TensorEnds& ends = {},
+  TensorAxes(std::vector<double> x_nodes, std::vector<double> y_nodes, const TensorEnds& ends = {},
              int degree = 3)
       : x(std::move(x_nodes), ends.x, degree), y(std::move(y_nodes), ends.y, degree) {}
   SplineAxis x;
@@ -55,15 +53,12 @@ class TensorSpline final : public Surface {
  public:
   /// `values(ix, iy)` is the value at (x node ix, y node iy). Throws std::invalid_argument when the
   /// shape does not fit the axes or a value is not finite.
-  TensorSpline(std::vector<double> x_nodes,
-               std::vector<double> y_nodes,
-               const Eigen::Ref<const Eigen::MatrixXd>& values,
-               const TensorEnds& ends = {},
+  TensorSpline(std::vector<double> x_nodes, std::vector<double> y_nodes,
+               const Eigen::Ref<const Eigen::MatrixXd>& values, const TensorEnds& ends = {},
                const EdgeSlopes& slopes = {});
   /// On axes that are already solved.
   TensorSpline(std::shared_ptr<const TensorAxes> axes,
-               const Eigen::Ref<const Eigen::MatrixXd>& values,
-               const EdgeSlopes& slopes = {});
+               const Eigen::Ref<const Eigen::MatrixXd>& values, const EdgeSlopes& slopes = {});
 
   ValueGradient at(double x, double y) const override;
   double value(double x, double y) const { return at(x, y).value; }

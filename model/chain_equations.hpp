@@ -64,10 +64,8 @@ inline ChainInputs<Dual<2>> inputs_by_place(const EquilibriumConstants& m, BedPo
 }
 /// With the derivative by one parameter, if it counts: the ring's radius does not count with
 /// brackets.
-inline ChainInputs<Dual<1>> inputs_by_parameter(const EquilibriumConstants& m,
-                                                BedPoint place,
-                                                Parameter parameter,
-                                                bool counts = true) {
+inline ChainInputs<Dual<1>> inputs_by_parameter(const EquilibriumConstants& m, BedPoint place,
+                                                Parameter parameter, bool counts = true) {
   ChainInputs<Dual<1>> inputs(m, place);
   if (counts && !(m.rotates && parameter == Parameter::ring_radius_mm))
     inputs.numbers[static_cast<std::size_t>(parameter)].d[0] = 1.0;
@@ -83,16 +81,13 @@ struct ChainPull {
 template <class T>
 ChainPull<T> pull_of(const ChainInputs<T>& in, const Unknowns<T>& q, Side side) {
   if (side == Side::left) return {q[kH], q[kV], q[kNLeft], q[kSLeft]};
-  return {q[kH] - in[Parameter::side_force_n],
-          in[Parameter::sled_weight_n] - q[kV],
-          q[kNRight],
+  return {q[kH] - in[Parameter::side_force_n], in[Parameter::sled_weight_n] - q[kV], q[kNRight],
           q[kSRight]};
 }
 
 /// The left side of (1').
 template <class T>
-std::array<T, 3> chain_end(const EquilibriumConstants& m,
-                           const ChainInputs<T>& in,
+std::array<T, 3> chain_end(const EquilibriumConstants& m, const ChainInputs<T>& in,
                            const ChainPull<T>& p) {
   using std::sqrt;
   const T& weight = in[Parameter::chain_weight_n_per_mm];
@@ -117,8 +112,7 @@ std::array<T, 3> chain_end(const EquilibriumConstants& m,
 
 /// The left sides of (1') of both chains, and of (2); of a ring that is the turn.
 template <class T>
-Unknowns<T> residual(const EquilibriumConstants& m,
-                     const ChainInputs<T>& in,
+Unknowns<T> residual(const EquilibriumConstants& m, const ChainInputs<T>& in,
                      const Unknowns<T>& q) {
   using std::cos;
   using std::sin;
@@ -144,8 +138,7 @@ Unknowns<T> residual(const EquilibriumConstants& m,
 
 /// The chains with these unknowns.
 template <int N>
-PerSide<ChainNumbers<N>> chains_at(const EquilibriumConstants& m,
-                                   const ChainInputs<Dual<N>>& in,
+PerSide<ChainNumbers<N>> chains_at(const EquilibriumConstants& m, const ChainInputs<Dual<N>>& in,
                                    const Unknowns<Dual<N>>& q) {
   PerSide<ChainNumbers<N>> chains;
   const Dual<N>& r = in[Parameter::sprocket_radius_mm];
@@ -164,18 +157,11 @@ PerSide<ChainNumbers<N>> chains_at(const EquilibriumConstants& m,
 /// The unknowns of a pose.
 inline Unknowns<double> unknowns_of(const Pose& pose) {
   const ChainState &l = pose.chains.left, &r = pose.chains.right;
-  return {l.horizontal_n,
-          l.vertical_at_sled_n,
-          l.free_length_mm,
-          r.free_length_mm,
-          l.out_of_sheet_n,
-          r.out_of_sheet_n,
-          pose.sled_rotation_rad};
+  return {l.horizontal_n,   l.vertical_at_sled_n, l.free_length_mm,      r.free_length_mm,
+          l.out_of_sheet_n, r.out_of_sheet_n,     pose.sled_rotation_rad};
 }
 
-Pose pose_of(const EquilibriumConstants& m,
-             const Unknowns<double>& q,
-             BedPoint place,
+Pose pose_of(const EquilibriumConstants& m, const Unknowns<double>& q, BedPoint place,
              int iterations);
 
 }  // namespace chaintrue::model

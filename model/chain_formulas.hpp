@@ -85,11 +85,8 @@ T sinh_ratio(const T& x) {
 /// catenary through the chord's ends at that horizontal tension, less the stretch at the mean
 /// tension.
 template <class T>
-T one_shot_mm(const StraightChain<T>& own,
-              const StraightChain<T>& other,
-              const T& sled_weight_n,
-              const T& chain_weight_n_per_mm,
-              const T& compliance_per_n) {
+T one_shot_mm(const StraightChain<T>& own, const StraightChain<T>& other, const T& sled_weight_n,
+              const T& chain_weight_n_per_mm, const T& compliance_per_n) {
   using std::cos;
   using std::sin;
   using std::sqrt;

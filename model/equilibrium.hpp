@@ -91,10 +91,8 @@ struct Attachments {
 
 inline Attachments attachments(const EquilibriumConstants& m, double psi) {
   const double c = std::cos(psi), s = std::sin(psi);
-  return {-m.half_spacing * c - m.bracket_height * s,
-          -m.half_spacing * s + m.bracket_height * c,
-          m.half_spacing * c - m.bracket_height * s,
-          m.half_spacing * s + m.bracket_height * c};
+  return {-m.half_spacing * c - m.bracket_height * s, -m.half_spacing * s + m.bracket_height * c,
+          m.half_spacing * c - m.bracket_height * s, m.half_spacing * s + m.bracket_height * c};
 }
 
 /// Right-hand sides: the residuals of the equations (Newton), or their derivatives by a parameter.
@@ -109,19 +107,15 @@ inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const Unknown
 }
 
 /// Left side of (2).
-inline double moment_about_bit(const EquilibriumConstants& m,
-                               const Attachments& a,
-                               const PerSide<ChainTerms>& t,
-                               double psi) {
+inline double moment_about_bit(const EquilibriumConstants& m, const Attachments& a,
+                               const PerSide<ChainTerms>& t, double psi) {
   return a.left_x * t.left.v + a.left_y * t.left.h + a.right_x * t.right.v - a.right_y * t.right.h -
          m.W * m.cg * std::sin(psi);
 }
 
 /// Its derivative by psi, forces fixed.
-inline double moment_by_psi(const EquilibriumConstants& m,
-                            const Attachments& a,
-                            const PerSide<ChainTerms>& t,
-                            double psi) {
+inline double moment_by_psi(const EquilibriumConstants& m, const Attachments& a,
+                            const PerSide<ChainTerms>& t, double psi) {
   return -a.left_y * t.left.v + a.left_x * t.left.h - a.right_y * t.right.v -
          a.right_x * t.right.h - m.W * m.cg * std::cos(psi);
 }
@@ -157,28 +151,21 @@ Unknowns<double> solve_sled(const SledRow& l, const SledRow& r, const SledRow& m
 }
 
 /// (2) linearised.
-inline SledRow moment_row(const EquilibriumConstants& m,
-                          const Attachments& a,
-                          const PerSide<ChainTerms>& t,
-                          double psi,
-                          double load) {
+inline SledRow moment_row(const EquilibriumConstants& m, const Attachments& a,
+                          const PerSide<ChainTerms>& t, double psi, double load) {
   return {a.left_y - a.right_y, a.left_x - a.right_x, moment_by_psi(m, a, t, psi), load};
 }
 
 /// Solves the linearised equations: terms * step + load = 0.
 template <bool kRotates>
-Unknowns<double> solve_linearised(const EquilibriumConstants& m,
-                                  const PerSide<ChainTerms>& t,
-                                  const EquilibriumLoad& load,
-                                  double psi) {
+Unknowns<double> solve_linearised(const EquilibriumConstants& m, const PerSide<ChainTerms>& t,
+                                  const EquilibriumLoad& load, double psi) {
   // With a chain's S eliminated; its V moves against the left one's by `way`.
-  const auto row =
-      [](const ChainTerms& c, double way, double u_psi, double y_psi, double u, double y) {
-        return SledRow{c.y_s * c.u_h - c.u_s * c.y_h,
-                       way * (c.y_s * c.u_v - c.u_s * c.y_v),
-                       c.y_s * u_psi - c.u_s * y_psi,
-                       c.y_s * u - c.u_s * y};
-      };
+  const auto row = [](const ChainTerms& c, double way, double u_psi, double y_psi, double u,
+                      double y) {
+    return SledRow{c.y_s * c.u_h - c.u_s * c.y_h, way * (c.y_s * c.u_v - c.u_s * c.y_v),
+                   c.y_s * u_psi - c.u_s * y_psi, c.y_s * u - c.u_s * y};
+  };
   Attachments a;
   SledRow moment;
   if constexpr (kRotates) {
@@ -186,21 +173,18 @@ Unknowns<double> solve_linearised(const EquilibriumConstants& m,
     moment = moment_row(m, a, t, psi, load.moment);
   }
   // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
-  Unknowns<double> step =
-      solve_sled<kRotates>(row(t.left, 1.0, a.left_y, a.left_x, load.u.left, load.y.left),
-                           row(t.right, -1.0, -a.right_y, a.right_x, load.u.right, load.y.right),
-                           moment);
+  Unknowns<double> step = solve_sled<kRotates>(
+      row(t.left, 1.0, a.left_y, a.left_x, load.u.left, load.y.left),
+      row(t.right, -1.0, -a.right_y, a.right_x, load.u.right, load.y.right), moment);
   const auto s_step = [](const ChainTerms& c, double u, double y) {
     return -(c.u_s * u + c.y_s * y) / (c.u_s * c.u_s + c.y_s * c.y_s);
   };
   const ChainTerms &cl = t.left, &cr = t.right;
   step[kSLeft] =
-      s_step(cl,
-             load.u.left + cl.u_h * step[kH] + cl.u_v * step[kV] + a.left_y * step[kTurn],
+      s_step(cl, load.u.left + cl.u_h * step[kH] + cl.u_v * step[kV] + a.left_y * step[kTurn],
              load.y.left + cl.y_h * step[kH] + cl.y_v * step[kV] + a.left_x * step[kTurn]);
   step[kSRight] =
-      s_step(cr,
-             load.u.right + cr.u_h * step[kH] - cr.u_v * step[kV] - a.right_y * step[kTurn],
+      s_step(cr, load.u.right + cr.u_h * step[kH] - cr.u_v * step[kV] - a.right_y * step[kTurn],
              load.y.right + cr.y_h * step[kH] - cr.y_v * step[kV] + a.right_x * step[kTurn]);
   return step;
 }

@@ -25,8 +25,7 @@ ChainState chain_state(const EquilibriumConstants& m, double h, double v, double
 
 /// The chains with the unknowns moved in answer to loads, one for each derivative of the inputs.
 template <bool kRotates, int N>
-PerSide<ChainNumbers<N>> moved_chains(const EquilibriumConstants& m,
-                                      const Pose& pose,
+PerSide<ChainNumbers<N>> moved_chains(const EquilibriumConstants& m, const Pose& pose,
                                       const ChainInputs<Dual<N>>& inputs,
                                       const std::array<EquilibriumLoad, N>& loads) {
   const Unknowns<double> q = unknowns_of(pose);
@@ -80,9 +79,7 @@ EquilibriumConstants equilibrium_constants(const EquilibriumParameters& paramete
   return m;
 }
 
-Pose pose_of(const EquilibriumConstants& m,
-             const Unknowns<double>& q,
-             BedPoint place,
+Pose pose_of(const EquilibriumConstants& m, const Unknowns<double>& q, BedPoint place,
              int iterations) {
   Pose pose;
   pose.position = place;
@@ -109,10 +106,9 @@ class EquilibriumKinematics final : public Kinematics {
   [[nodiscard]] PoseResult inverse(BedPoint point) const override {
     if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
     Unknowns<double> q;
-    const int iterations =
-        converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
-          return converge_inverse<kRotates>(m_, p, at);
-        });
+    const int iterations = converge_from_start(
+        m_, point, q,
+        [this](BedPoint p, Unknowns<double>& at) { return converge_inverse<kRotates>(m_, p, at); });
     if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
     return pose_of(m_, q, point, iterations);
   }
@@ -156,8 +152,7 @@ class EquilibriumKinematics final : public Kinematics {
         moment = moment_row(m_, a, t, q[kTurn], moment_about_bit(m_, a, t, q[kTurn]));
       Unknowns<double> step =
           solve_sled<kRotates>({l.u_h + r.u_h, l.u_v - r.u_v, a.left_y - a.right_y, cx},
-                               {l.y_h - r.y_h, l.y_v + r.y_v, a.left_x - a.right_x, cy},
-                               moment);
+                               {l.y_h - r.y_h, l.y_v + r.y_v, a.left_x - a.right_x, cy}, moment);
       step[kSLeft] = l.s + l.s_h * step[kH] + l.s_v * step[kV];
       step[kSRight] = r.s + r.s_h * step[kH] - r.s_v * step[kV];
       if (!hanging::are_finite(step)) break;
@@ -179,8 +174,8 @@ class EquilibriumKinematics final : public Kinematics {
     EquilibriumLoad by_x, by_y;
     by_x.u = {-1.0, 1.0};
     by_y.y = {1.0, 1.0};
-    return moved_chains<kRotates, 2>(
-        m_, pose, inputs_by_place(m_, pose.position), std::array{by_x, by_y});
+    return moved_chains<kRotates, 2>(m_, pose, inputs_by_place(m_, pose.position),
+                                     std::array{by_x, by_y});
   }
 
   PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const override {

@@ -16,9 +16,7 @@ namespace chaintrue::model {
 
 /// A bracket reaches as far from the bit as its corner.
 inline DomainLimits limits_of(const EquilibriumConstants& m) {
-  return {m.motors,
-          m.r,
-          m.sg,
+  return {m.motors, m.r, m.sg,
           m.rho + std::sqrt(m.half_spacing * m.half_spacing + m.bracket_height * m.bracket_height)};
 }
 
@@ -55,9 +53,7 @@ inline Unknowns<double> straight_start(const EquilibriumConstants& m, BedPoint p
 /// Continuation from below the beam's middle to the point: the branch of solutions with taut chains.
 /// \param converge int(BedPoint, Unknowns<double>&): steps, or 0
 template <class Converge>
-int converge_by_continuation(const EquilibriumConstants& m,
-                             BedPoint p,
-                             Unknowns<double>& q,
+int converge_by_continuation(const EquilibriumConstants& m, BedPoint p, Unknowns<double>& q,
                              const Converge& converge) {
   const MotorPosition &l = m.motors.left, &r = m.motors.right;
   const BedPoint middle{0.5 * (l.x_mm + r.x_mm),
@@ -73,9 +69,7 @@ int converge_by_continuation(const EquilibriumConstants& m,
 /// From straight chains, or by continuation if that fails. \param converge as above
 /// \returns steps, or 0
 template <class Converge>
-int converge_from_start(const EquilibriumConstants& m,
-                        BedPoint p,
-                        Unknowns<double>& q,
+int converge_from_start(const EquilibriumConstants& m, BedPoint p, Unknowns<double>& q,
                         const Converge& converge) {
   q = straight_start(m, p);
   const int steps = converge(p, q);

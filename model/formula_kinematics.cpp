@@ -29,8 +29,7 @@ PerSide<T> tensions(const ChainInputs<T>& in, const PerSide<StraightChain<T>>& c
 
 class FormulaKinematics final : public Kinematics {
  public:
-  FormulaKinematics(const EquilibriumParameters& parameters,
-                    Formula formula,
+  FormulaKinematics(const EquilibriumParameters& parameters, Formula formula,
                     const PerSide<double>& tolerance_percent)
       : m_(equilibrium_constants(parameters)),
         formula_(formula),
@@ -100,9 +99,7 @@ class FormulaKinematics final : public Kinematics {
       if (formula_ == Formula::firmware)
         return firmware_sagged_mm(own, other.angle_rad, sag_correction_);
       if (formula_ == Formula::one_shot) {
-        return one_shot_mm(own,
-                           other,
-                           in[Parameter::sled_weight_n],
+        return one_shot_mm(own, other, in[Parameter::sled_weight_n],
                            in[Parameter::chain_weight_n_per_mm],
                            in[Parameter::chain_compliance_per_n]);
       }
@@ -124,11 +121,8 @@ class FormulaKinematics final : public Kinematics {
     const PerSide<Dual<N>> total = lengths(in), tension = tensions(in, straight);
     PerSide<ChainNumbers<N>> result;
     for (const Side side : kSides) {
-      result[side] = {total[side],
-                      straight[side].angle_rad,
-                      total[side] - straight[side].wrap_mm,
-                      tension[side],
-                      tension[side] * cos(straight[side].angle_rad)};
+      result[side] = {total[side], straight[side].angle_rad, total[side] - straight[side].wrap_mm,
+                      tension[side], tension[side] * cos(straight[side].angle_rad)};
     }
     return result;
   }
@@ -142,8 +136,7 @@ class FormulaKinematics final : public Kinematics {
 }  // namespace
 
 std::unique_ptr<const Kinematics> make_formula_kinematics(
-    const EquilibriumParameters& parameters,
-    Formula formula,
+    const EquilibriumParameters& parameters, Formula formula,
     const PerSide<double>& tolerance_percent) {
   return std::make_unique<FormulaKinematics>(parameters, formula, tolerance_percent);
 }

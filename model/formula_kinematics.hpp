@@ -16,8 +16,7 @@ enum class Formula { straight, wrap, firmware, one_shot };
 /// \param tolerance_percent of the firmwares, which divide the straight part by 1 + tolerance / 100
 /// \throws std::invalid_argument for brackets: the closed formulas have no rotating sled.
 std::unique_ptr<const Kinematics> make_formula_kinematics(
-    const EquilibriumParameters& parameters,
-    Formula formula,
+    const EquilibriumParameters& parameters, Formula formula,
     const PerSide<double>& tolerance_percent = {});
 
 }  // namespace chaintrue::model

@@ -50,10 +50,10 @@ CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths) {
   // micrometre of it.
   for (int pass = 0; pass < 2; ++pass) {
     const BedPoint p = pulled_inside(limits, guess.point);
-    const auto l = straight_chain(
-        p.x_mm - limits.motors.left.x_mm, limits.motors.left.y_mm - p.y_mm, r, limits.feed_sign);
-    const auto q = straight_chain(
-        limits.motors.right.x_mm - p.x_mm, limits.motors.right.y_mm - p.y_mm, r, limits.feed_sign);
+    const auto l = straight_chain(p.x_mm - limits.motors.left.x_mm,
+                                  limits.motors.left.y_mm - p.y_mm, r, limits.feed_sign);
+    const auto q = straight_chain(limits.motors.right.x_mm - p.x_mm,
+                                  limits.motors.right.y_mm - p.y_mm, r, limits.feed_sign);
     const double left = lengths.left_mm + rho - l.wrap_mm;
     const double right = lengths.right_mm + rho - q.wrap_mm;
     guess =
@@ -65,8 +65,7 @@ CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths) {
   return guess;
 }
 
-PoseResult forward_by_inverse(const Kinematics& kinematics,
-                              const DomainLimits& limits,
+PoseResult forward_by_inverse(const Kinematics& kinematics, const DomainLimits& limits,
                               ChainLengths lengths) {
   constexpr int kMaxSteps = 60;
   constexpr double kConvergedMm = 1e-7;  // Newton is quadratic: one more step reaches rounding

@@ -23,7 +23,6 @@ CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths);
 /// \returns the pose of `kinematics.inverse` whose lengths are these to 1e-9 mm; `too_short` where
 /// the chains cannot meet, else `not_converged`.
 [[nodiscard]] PoseResult forward_by_inverse(const Kinematics& kinematics,
-                                            const DomainLimits& limits,
-                                            ChainLengths lengths);
+                                            const DomainLimits& limits, ChainLengths lengths);
 
 }  // namespace chaintrue::model

@@ -129,8 +129,7 @@ int converge(const Equations& equations, const BodyForces& body, Unknowns<double
 /// The unknowns with their derivatives by what `inputs_vary` depends on besides them:
 /// -(dF/dq)^-1 dF/d(inputs).
 template <int N, class Equations, class InputsVary>
-Unknowns<Dual<N>> with_derivatives(const Equations& equations,
-                                   const InputsVary& inputs_vary,
+Unknowns<Dual<N>> with_derivatives(const Equations& equations, const InputsVary& inputs_vary,
                                    const Unknowns<double>& q) {
   Unknowns<Dual<N>> result = fixed<N>(q);
   const Slopes<N> moved =

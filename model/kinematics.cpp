@@ -36,8 +36,7 @@ void require_sound(const EquilibriumParameters& p) {
     throw std::invalid_argument(
         fmt::format("motor x_mm, left {} and right {}: expected the right motor right of the left "
                     "one by more than the sprocket's diameter",
-                    p.motors.left.x_mm,
-                    p.motors.right.x_mm));
+                    p.motors.left.x_mm, p.motors.right.x_mm));
   }
   if (const auto* ring = std::get_if<Ring>(&p.attachment)) {
     require("ring_radius_mm", ring->radius_mm, 0.0, 1e4);

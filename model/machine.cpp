@@ -25,18 +25,15 @@ void check_motors(const Machine& machine, RangeChecks& check) {
   const double spacing = r.x_mm - l.x_mm;
   if (spacing <= 0.0) {
     check.add(
-        "/motors/left/x_mm",
-        l.x_mm,
+        "/motors/left/x_mm", l.x_mm,
         fmt::format("the left motor left of the right one, whose x_mm is {}; were they swapped?",
                     r.x_mm));
   } else if (spacing < 300.0) {
-    check.add("/motors/right/x_mm",
-              r.x_mm,
+    check.add("/motors/right/x_mm", r.x_mm,
               fmt::format("motors at least 300 mm apart, not {}; {}", spacing, kInches));
   } else if (std::abs(l.y_mm - r.y_mm) > 0.2 * spacing) {
     check.add(
-        "/motors/right/y_mm",
-        r.y_mm,
+        "/motors/right/y_mm", r.y_mm,
         fmt::format(
             "a beam that rises less than a fifth of its length, but the left motor's y_mm is {}",
             l.y_mm));
@@ -47,8 +44,7 @@ void check_motors(const Machine& machine, RangeChecks& check) {
     const double y = machine.motors[side].y_mm;
     if (y > top) continue;
     const char* place = side == Side::left ? "/motors/left/y_mm" : "/motors/right/y_mm";
-    check.add(place,
-              y,
+    check.add(place, y,
               fmt::format("a motor above the bed's top edge at y_mm = {} (y points up, the origin "
                           "is the bed's centre)",
                           top));
@@ -59,8 +55,7 @@ void check_attachment(const Attachment& attachment, RangeChecks& check) {
   if (const auto* ring = std::get_if<Ring>(&attachment)) {
     check.range("/attachment/radius_mm", ring->radius_mm, 0, 1000, "mm");
     if (ring->radius_mm > 0 && ring->radius_mm < 20) {
-      check.add("/attachment/radius_mm",
-                ring->radius_mm,
+      check.add("/attachment/radius_mm", ring->radius_mm,
                 fmt::format("0 (chains to the bit) or at least 20 mm; {}", kInches));
     }
     return;
@@ -87,10 +82,7 @@ constexpr ControllerRange kControllerRanges[] = {
     {"sledwidth", &ControllerSettings::sled_width_mm, 20, 2000, "mm"},
     {"sledheight", &ControllerSettings::sled_height_mm, 0, 2000, "mm"},
     {"sledcg", &ControllerSettings::sled_cg_mm, 0, 2000, "mm"},
-    {"chainsagcorrection",
-     &ControllerSettings::chain_sag_correction,
-     -1000,
-     1000,
+    {"chainsagcorrection", &ControllerSettings::chain_sag_correction, -1000, 1000,
      "(1e-12 / mm^2)"},
     {"leftchaintolerance", &ControllerSettings::left_chain_tolerance_percent, -10, 10, "percent"},
     {"rightchaintolerance", &ControllerSettings::right_chain_tolerance_percent, -10, 10, "percent"},
@@ -104,8 +96,8 @@ constexpr ControllerRange kControllerRanges[] = {
 void check_controller(const ControllerSettings& settings, RangeChecks& check) {
   for (const ControllerRange& own : kControllerRanges) {
     if (const auto& value = settings.*own.value)
-      check.range(
-          fmt::format("/controller/settings/{}", own.key), *value, own.least, own.most, own.unit);
+      check.range(fmt::format("/controller/settings/{}", own.key), *value, own.least, own.most,
+                  own.unit);
   }
 }
 
@@ -119,29 +111,17 @@ void check_machine(const Machine& machine, RangeChecks& check) {
     check.range("/sprocket/radius_mm", *machine.sprocket.radius_mm, 1, 200, "mm", kInches);
   }
   check_attachment(machine.attachment, check);
-  check.range("/chain/mass_kg_per_m",
-              machine.chain.mass_kg_per_m,
-              0,
-              5,
-              "kg/m",
+  check.range("/chain/mass_kg_per_m", machine.chain.mass_kg_per_m, 0, 5, "kg/m",
               "was it given in grams per metre?");
-  check.range("/chain/compliance_per_n",
-              machine.chain.compliance_per_n,
-              0,
-              1e-3,
-              "1/N",
+  check.range("/chain/compliance_per_n", machine.chain.compliance_per_n, 0, 1e-3, "1/N",
               "it is a strain per newton, about 5e-6 for a #25 chain");
   check.range("/chain_zero/left_mm", machine.chain_zero.left_mm, -20000, 20000, "mm");
   check.range("/chain_zero/right_mm", machine.chain_zero.right_mm, -20000, 20000, "mm");
   check.range("/sled/mass_kg", machine.sled.mass_kg, 0.05, 200, "kg", "was it given in grams?");
-  check.range("/frame/tilt_from_vertical_deg",
-              machine.frame.tilt_from_vertical_deg,
-              0,
-              75,
-              "degrees",
-              "it counts from the vertical, not from the floor");
-  check.range(
-      "/uncertainty/motor_position_mm", machine.uncertainty.motor_position_mm, 0, 1000, "mm");
+  check.range("/frame/tilt_from_vertical_deg", machine.frame.tilt_from_vertical_deg, 0, 75,
+              "degrees", "it counts from the vertical, not from the floor");
+  check.range("/uncertainty/motor_position_mm", machine.uncertainty.motor_position_mm, 0, 1000,
+              "mm");
   check.range("/uncertainty/chain_zero_mm", machine.uncertainty.chain_zero_mm, 0, 1000, "mm");
   check.range("/uncertainty/ring_radius_mm", machine.uncertainty.ring_radius_mm, 0, 1000, "mm");
   check_controller(machine.controller.settings, check);
@@ -155,12 +135,8 @@ void check_machine(const Machine& machine, RangeChecks& check) {
 
 }  // namespace
 
-void RangeChecks::range(std::string_view place,
-                        double value,
-                        double least,
-                        double most,
-                        std::string_view unit,
-                        std::string_view slip) {
+void RangeChecks::range(std::string_view place, double value, double least, double most,
+                        std::string_view unit, std::string_view slip) {
   if (ranges_ != nullptr) ranges_->push_back({std::string(place), least, most, std::string(unit)});
   if (value >= least && value <= most) return;  // false for NaN
   std::string expected = fmt::format("a number from {} to {} {}", least, most, unit);

@@ -27,12 +27,8 @@ class RangeChecks {
   /// With `ranges`, every range that is checked is appended to it.
   explicit RangeChecks(std::vector<MachineRange>* ranges = nullptr) : ranges_(ranges) {}
   /// `slip` is what may have happened to a value outside.
-  void range(std::string_view place,
-             double value,
-             double least,
-             double most,
-             std::string_view unit = "",
-             std::string_view slip = "");
+  void range(std::string_view place, double value, double least, double most,
+             std::string_view unit = "", std::string_view slip = "");
   template <class Value>
   void add(std::string_view place, const Value& value, std::string expected) {
     problems_.push_back({std::string(place), fmt::format("{}", value), std::move(expected)});

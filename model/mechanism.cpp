@@ -11,16 +11,9 @@
 namespace chaintrue::model {
 
 std::string_view name(Change what) {
-  constexpr std::array<std::string_view, 10> kNames = {"nothing",
-                                                       "zero",
-                                                       "tooth",
-                                                       "pitch",
-                                                       "zeros_and_pitch",
-                                                       "motors",
-                                                       "anchor",
-                                                       "parameter",
-                                                       "unknown",
-                                                       "bad_point"};
+  constexpr std::array<std::string_view, 10> kNames = {
+      "nothing", "zero",   "tooth",     "pitch",   "zeros_and_pitch",
+      "motors",  "anchor", "parameter", "unknown", "bad_point"};
   return kNames.at(static_cast<std::size_t>(what));
 }
 
@@ -31,8 +24,7 @@ std::vector<MechanismChange> Mechanism::possible_changes() const {
   for (std::size_t k = 0; k < parameters().size(); ++k) {
     const MechanismParameter& parameter = parameters()[k];
     MechanismChange one{parameter.set_by_zeroing ? Change::zero : Change::parameter,
-                        std::string(parameter.name),
-                        parameter.set_by_zeroing};
+                        std::string(parameter.name), parameter.set_by_zeroing};
     one.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
                               .parameter = k,
                               .sigma = parameter.prior_sigma.value_or(kParameterShiftSigma)});
@@ -53,8 +45,8 @@ std::vector<MechanismChange> Mechanism::possible_changes() const {
 
 std::shared_ptr<const Mechanism> MechanismBase::with_values(const Eigen::VectorXd& values) const {
   if (values.size() != values_.size() || !values.allFinite()) {
-    throw std::invalid_argument(fmt::format(
-        "{} values of {} parameters of {}, or not finite", values.size(), values_.size(), kind()));
+    throw std::invalid_argument(fmt::format("{} values of {} parameters of {}, or not finite",
+                                            values.size(), values_.size(), kind()));
   }
   return rebuild(values, applied_);
 }
@@ -65,8 +57,7 @@ std::vector<MachineProblem> MechanismBase::problems_of_effects(
   for (std::size_t i = 0; problems.empty() && i < applied.size(); ++i) {
     const effects::Part part = effects::find_effect(effects_, applied[i].effect)->part;
     if (!has(part))
-      problems.push_back({fmt::format("/{}/effect", i),
-                          applied[i].effect,
+      problems.push_back({fmt::format("/{}/effect", i), applied[i].effect,
                           fmt::format("{} to act on", effects::name(part))});
   }
   for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;

@@ -139,8 +139,7 @@ class Mechanism {
 
   /// (1). Derivatives are those of f at this visit.
   [[nodiscard]] virtual tl::expected<LengthsPrediction, MechanismFailure> predict(
-      const ToolPosition& position,
-      const MechanismVisit& visit,
+      const ToolPosition& position, const MechanismVisit& visit,
       Derivatives wanted = Derivatives::by_position_and_parameter) const = 0;
   /// The position of the tool when these lengths are read at a visit: the inverse of predict(),
   /// 1e-9 mm. For more than two lengths the position with the least sum of squared residuals.
@@ -184,12 +183,9 @@ class MechanismBase : public Mechanism {
 
  protected:
   /// `kind` and `lengths` live as long as the program.
-  MechanismBase(std::string_view kind,
-                std::span<const std::string_view> lengths,
-                effects::EffectTable effects,
-                std::vector<MechanismParameter> parameters,
-                Eigen::VectorXd values,
-                std::vector<AppliedEffect> applied)
+  MechanismBase(std::string_view kind, std::span<const std::string_view> lengths,
+                effects::EffectTable effects, std::vector<MechanismParameter> parameters,
+                Eigen::VectorXd values, std::vector<AppliedEffect> applied)
       : kind_(kind),
         lengths_(lengths),
         effects_(effects.begin(), effects.end()),
@@ -219,9 +215,7 @@ inline constexpr double kParameterShiftSigma = 5.0;
 
 /// (1) at other values of the parameters.
 [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
-    const Mechanism& mechanism,
-    const ToolPosition& position,
-    const MechanismVisit& visit,
+    const Mechanism& mechanism, const ToolPosition& position, const MechanismVisit& visit,
     const Eigen::VectorXd& values);
 
 /// What an effect adds to the lengths at the mark with these numbers, mm: lengths with it less
@@ -235,10 +229,7 @@ inline constexpr double kParameterShiftSigma = 5.0;
 /// leave the domain. `counting` selects the lengths that are read, at least two; empty: all. Fails
 /// with "not_converged" after 50 steps.
 [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate_by_newton(
-    const Mechanism& mechanism,
-    const Eigen::VectorXd& lengths_mm,
-    const MechanismVisit& visit,
-    const ToolPosition& start,
-    const std::vector<bool>& counting = {});
+    const Mechanism& mechanism, const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit,
+    const ToolPosition& start, const std::vector<bool>& counting = {});
 
 }  // namespace chaintrue::model

@@ -31,10 +31,8 @@ double sign_of_change(double change, double last) {
 
 /// What is added to a chain at this place, with the derivatives of all that it depends on.
 template <int N>
-Dual<N> with_derivatives(const effects::Number& added,
-                         const ChainNumbers<N>& chain,
-                         const Dual<N>& x_mm,
-                         const Dual<N>& y_mm) {
+Dual<N> with_derivatives(const effects::Number& added, const ChainNumbers<N>& chain,
+                         const Dual<N>& x_mm, const Dual<N>& y_mm) {
   // In the order of LengthVariable.
   const std::array<Dual<N>, effects::kLengthVariables> by = {chain.angle_rad,
                                                              chain.free_length_mm,
@@ -54,10 +52,7 @@ std::vector<MechanismParameter> stated_parameters(const Machine& machine) {
   std::vector<MechanismParameter> parameters;
   for (const Setting setting : kMachineSettings) {
     parameters.push_back(
-        {name(setting),
-         "mm",
-         stated_value(machine, setting),
-         stated_sigma(machine, setting),
+        {name(setting), "mm", stated_value(machine, setting), stated_sigma(machine, setting),
          setting == Setting::chain_zero_left_mm || setting == Setting::chain_zero_right_mm});
   }
   return parameters;
@@ -84,15 +79,10 @@ std::shared_ptr<const ReadingModel> make_chain_mechanism(const Machine& machine)
 ReadingModel::ReadingModel(const Machine& machine, Model model)
     : ReadingModel(sound(machine), model, stated_parameters(machine)) {}
 
-ReadingModel::ReadingModel(const Machine& machine,
-                           Model model,
+ReadingModel::ReadingModel(const Machine& machine, Model model,
                            std::vector<MechanismParameter> parameters)
-    : MechanismBase("chains",
-                    kChainLengths,
-                    effects::effects_of(machine),
-                    std::move(parameters),
-                    values_of(machine),
-                    machine.effects),
+    : MechanismBase("chains", kChainLengths, effects::effects_of(machine), std::move(parameters),
+                    values_of(machine), machine.effects),
       machine_(sound(machine)),
       model_(model),
       frame_(machine),
@@ -292,14 +282,12 @@ class Session {
 };
 
 tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
-    const ReadingModel& model,
-    std::span<const Visit> visits,
+    const ReadingModel& model, std::span<const Visit> visits,
     const std::function<void(std::size_t read)>& on_progress) {
   std::vector<std::size_t> sequence(visits.size());
   std::iota(sequence.begin(), sequence.end(), std::size_t{0});
-  std::sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
-    return visits[a].order < visits[b].order;
-  });
+  std::sort(sequence.begin(), sequence.end(),
+            [&](std::size_t a, std::size_t b) { return visits[a].order < visits[b].order; });
   Session session(model);
   std::vector<ChainLengths> result(visits.size());
   for (std::size_t k = 0; k < sequence.size(); ++k) {

@@ -97,8 +97,7 @@ class ReadingModel final : public MechanismBase {
   [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
       const std::vector<AppliedEffect>& applied) const override;
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
-      const ToolPosition& position,
-      const MechanismVisit& visit,
+      const ToolPosition& position, const MechanismVisit& visit,
       Derivatives wanted = Derivatives::by_position_and_parameter) const override;
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
@@ -147,8 +146,7 @@ using VisitFailure = Failure<PoseReason, std::size_t>;
 /// paid out (+1). `on_progress` is called after each visit with the number done. \throws
 /// std::invalid_argument if two visits have the same number.
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
-    const ReadingModel& model,
-    std::span<const Visit> visits,
+    const ReadingModel& model, std::span<const Visit> visits,
     const std::function<void(std::size_t read)>& on_progress = {});
 
 }  // namespace chaintrue::model

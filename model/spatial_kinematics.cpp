@@ -20,15 +20,12 @@ int converge_inverse(const EquilibriumConstants& m, BedPoint p, Unknowns<double>
 
 /// The chains with derivatives by what the inputs have them.
 template <int N>
-PerSide<ChainNumbers<N>> moved_chains_in_space(const EquilibriumConstants& m,
-                                               const Pose& pose,
+PerSide<ChainNumbers<N>> moved_chains_in_space(const EquilibriumConstants& m, const Pose& pose,
                                                const ChainInputs<Dual<N>>& inputs) {
   return chains_at(
-      m,
-      inputs,
+      m, inputs,
       hanging::with_derivatives<N>(equations_at(m, ChainInputs<Dual<kUnknowns>>(m, pose.position)),
-                                   equations_at(m, inputs),
-                                   unknowns_of(pose)));
+                                   equations_at(m, inputs), unknowns_of(pose)));
 }
 
 class SpatialKinematics final : public Kinematics {
@@ -42,10 +39,9 @@ class SpatialKinematics final : public Kinematics {
   [[nodiscard]] PoseResult inverse(BedPoint point) const override {
     if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
     Unknowns<double> q;
-    const int iterations =
-        converge_from_start(m_, point, q, [this](BedPoint p, Unknowns<double>& at) {
-          return converge_inverse(m_, p, at);
-        });
+    const int iterations = converge_from_start(
+        m_, point, q,
+        [this](BedPoint p, Unknowns<double>& at) { return converge_inverse(m_, p, at); });
     if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
     return pose_of(m_, q, point, iterations);
   }

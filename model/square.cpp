@@ -28,8 +28,7 @@ std::array<BedPoint, 4> corners_of(const SquareTask& task) {
 
 /// The corners' mean, and the length-weighted direction of the sides relative to the commanded
 /// ones.
-void place(CutSquare& square,
-           const std::array<BedPoint, 4>& commanded,
+void place(CutSquare& square, const std::array<BedPoint, 4>& commanded,
            const std::array<BedPoint, 4>& cut) {
   double dot = 0.0, cross = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -52,8 +51,7 @@ std::vector<BedPoint> outline_of(const SquareTask& task) {
     throw std::invalid_argument(
         fmt::format("a square of size_mm = {} with {} points to a side: expected a positive size "
                     "and two points or more",
-                    task.size_mm,
-                    task.points_per_side));
+                    task.size_mm, task.points_per_side));
   }
   const std::array<BedPoint, 4> corners = corners_of(task);
   std::vector<BedPoint> outline;
@@ -71,8 +69,8 @@ CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut) {
   CutSquare square;
   square.commanded = outline_of(task);
   if (cut.size() != square.commanded.size()) {
-    throw std::invalid_argument(fmt::format(
-        "{} points of a square cut, of an outline of {}", cut.size(), square.commanded.size()));
+    throw std::invalid_argument(fmt::format("{} points of a square cut, of an outline of {}",
+                                            cut.size(), square.commanded.size()));
   }
   square.cut = std::move(cut);
   const std::size_t count = square.cut.size() / 4;
@@ -95,8 +93,7 @@ CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut) {
 
 tl::expected<CutSquare, SquareFailure> predict_square(const Machine& machine,
                                                       const Machine& controller_machine,
-                                                      const SquareTask& task,
-                                                      Model model) {
+                                                      const SquareTask& task, Model model) {
   const std::vector<BedPoint> outline = outline_of(task);
   const auto controller = make_controller_kinematics(controller_machine);
   const ReadingModel world(machine, model);

@@ -34,8 +34,8 @@ struct SquareTask {
 
 /// Clockwise from the lower left corner.
 enum class SquareSide { left, top, right, bottom };
-inline constexpr SquareSide kSquareSides[] = {
-    SquareSide::left, SquareSide::top, SquareSide::right, SquareSide::bottom};
+inline constexpr SquareSide kSquareSides[] = {SquareSide::left, SquareSide::top, SquareSide::right,
+                                              SquareSide::bottom};
 
 struct CutSide {
   double length_mm = 0.0;  ///< corner to corner
@@ -73,9 +73,7 @@ using SquareFailure = Failure<PoseReason, SquarePlace>;
 /// \throws std::invalid_argument for a size that is no positive number, fewer than two points to a
 /// side, or machines with problems.
 [[nodiscard]] tl::expected<CutSquare, SquareFailure> predict_square(
-    const Machine& machine,
-    const Machine& controller_machine,
-    const SquareTask& task,
+    const Machine& machine, const Machine& controller_machine, const SquareTask& task,
     Model model = Model::elastic);
 
 }  // namespace chaintrue::model

@@ -49,9 +49,7 @@ observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& en
 
 observation::TapedDistance taped_between(const model::BeltMachine& machine,
                                          const BeltDistance& distance) {
-  return {end_of(machine, distance.from),
-          end_of(machine, distance.to),
-          distance.distance_mm,
+  return {end_of(machine, distance.from), end_of(machine, distance.to), distance.distance_mm,
           distance.sigma_mm};
 }
 
@@ -91,8 +89,7 @@ namespace {
 
 /// Drops the few points whose lengths do not intersect: one reading with a lost
 /// digit would end the estimate before it begins.
-Counting without_nowhere_points(const MeasuredBelts& belts,
-                                const AnchorVector& start,
+Counting without_nowhere_points(const MeasuredBelts& belts, const AnchorVector& start,
                                 const Counting& counting) {
   const auto mechanism = mechanism_at(belts, {start, 0.0, {}});
   const observation::BeltLengthReadings readings = readings_of(belts, counting);
@@ -110,10 +107,8 @@ Counting without_nowhere_points(const MeasuredBelts& belts,
 }
 
 /// Without distances.
-std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
-                                   const AnchorVector& start,
-                                   Counting counting,
-                                   Readings which,
+std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts, const AnchorVector& start,
+                                   Counting counting, Readings which,
                                    double most_noise_mm = kPlausibleSpreadMm) {
   if (which == Readings::those_that_fit) counting = without_nowhere_points(belts, start, counting);
   estimation::EstimationInput input = anchor_input(belts, counting, start);
@@ -206,8 +201,7 @@ std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
 
 }  // namespace
 
-observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
-                                            const Counting& counting,
+observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Counting& counting,
                                             double sigma_mm,
                                             const std::vector<model::FramePoint>& about) {
   std::vector<observation::LengthsAtPlace> places;
@@ -258,14 +252,12 @@ std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
     if (index == nullptr) return {};
     return {state.places.at(*index).x_mm, state.places.at(*index).y_mm};
   };
-  const auto line = observation::distance_line(mechanism,
-                                               taped_between(belts.machine, distance),
+  const auto line = observation::distance_line(mechanism, taped_between(belts.machine, distance),
                                                {place_of(distance.from), place_of(distance.to)});
   return line ? std::optional(*line) : std::nullopt;
 }
 
-estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
-                                         const Counting& counting,
+estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const Counting& counting,
                                          const AnchorVector& start) {
   const MeasuredBelts untaped = without_distances(belts);
   auto readings =
@@ -283,8 +275,7 @@ estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
   return input;
 }
 
-std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
-                                          const FrameState& state,
+std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts, const FrameState& state,
                                           const Counting& counting) {
   return with_tape(belts,
                    fit_alone(without_distances(belts), state.anchors, counting, Readings::all));
@@ -313,8 +304,7 @@ std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
   return with_tape(belts, std::move(less));
 }
 
-FramePoint nearest_place(const model::BeltMachine& machine,
-                         const BeltPoint& point,
+FramePoint nearest_place(const model::BeltMachine& machine, const BeltPoint& point,
                          const model::PerBelt<bool>& counting) {
   model::PerBelt<double> spans;
   for (const Belt belt : kBelts) {
@@ -337,10 +327,8 @@ FramePoint nearest_place(const model::BeltMachine& machine,
   for (const Belt first : kBelts) {
     for (const Belt second : kBelts) {
       if (first == second || !counting[first] || !counting[second]) continue;
-      const auto at = model::crossing({a[first].x_mm, a[first].y_mm},
-                                      spans[first],
-                                      {a[second].x_mm, a[second].y_mm},
-                                      spans[second]);
+      const auto at = model::crossing({a[first].x_mm, a[first].y_mm}, spans[first],
+                                      {a[second].x_mm, a[second].y_mm}, spans[second]);
       if (!at || square_at(*at) >= least) continue;
       best = *at;
       least = square_at(best);

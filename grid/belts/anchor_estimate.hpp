@@ -25,8 +25,7 @@ namespace chaintrue::grid::belts {
 
 /// Where the four spans of a point come nearest to one another, from where those of the lower
 /// anchors, or of the upper, cross.
-model::FramePoint nearest_place(const model::BeltMachine& machine,
-                                const BeltPoint& point,
+model::FramePoint nearest_place(const model::BeltMachine& machine, const BeltPoint& point,
                                 const model::PerBelt<bool>& counting);
 
 /// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
@@ -36,8 +35,7 @@ std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
 /// Readings that count, and the distances; units are places of which three or four readings count.
 /// `about` has a position of each point to linearise about, or is empty. \throws
 /// std::invalid_argument with both distances and positions.
-observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
-                                            const Counting& counting,
+observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Counting& counting,
                                             double sigma_mm = 1.0,
                                             const std::vector<model::FramePoint>& about = {});
 
@@ -62,8 +60,7 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 /// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
 /// Precondition: `belts` has no distances. In its estimate, noise_factor is the spread in mm, and
 /// the first five rows of the covariance are those of the anchors, mm^2.
-estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
-                                         const Counting& counting,
+estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const Counting& counting,
                                          const AnchorVector& start);
 
 /// From the likeliest start that leads to a sound frame, with every reading counted; if none does,
@@ -72,8 +69,7 @@ std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts);
 /// As above, without outliers.
 std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts);
 /// From a nearby state, with the given readings.
-std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
-                                          const FrameState& state,
+std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts, const FrameState& state,
                                           const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

@@ -20,8 +20,8 @@ std::string words_of_belts(const CheckHypothesis& h) {
   const auto belt = model::words(model::belt_of(h.side).value());
   if (h.what == model::Change::zero)
     return fmt::format("the zero of the {} belt has shifted by {:+.1f} mm", belt, h.size());
-  return fmt::format(
-      "the {} anchor has moved by some {:.1f} mm against the others", belt, h.size());
+  return fmt::format("the {} anchor has moved by some {:.1f} mm against the others", belt,
+                     h.size());
 }
 
 CheckWords words_of_anchors() {
@@ -50,10 +50,9 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
       model::make_belt_mechanism(belts::with_anchors(belts.machine, belts::anchors_of(fit.machine)))
           ->with_effects(effects);
   const belts::Counting all(belts.points.size(), belts::kAllBelts);
-  const auto check = check_lengths(
-      {mechanism, fit.covariance_mm2, fit.residual_sigma_mm, as_double(fit.checks)},
-      belts::readings_of(belts, all).readings(),
-      words_of_anchors());
+  const auto check =
+      check_lengths({mechanism, fit.covariance_mm2, fit.residual_sigma_mm, as_double(fit.checks)},
+                    belts::readings_of(belts, all).readings(), words_of_anchors());
   // More than three turns of an encoder: a different frame rather than a changed one.
   constexpr double kAnotherFrameMm = 130.0;
   std::vector<double> residuals_mm;

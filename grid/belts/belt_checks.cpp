@@ -155,7 +155,8 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
     if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
   }
   if (!best) return std::nullopt;
-  SwappedBelts result{belt_swaps()[*best], std::nullopt, as_stated.residual_sigma_mm, frames[*best].residual_sigma_mm};
+  SwappedBelts result{belt_swaps()[*best], std::nullopt, as_stated.residual_sigma_mm,
+                      frames[*best].residual_sigma_mm};
   if (*best >= kSinglePairs) return result;
   const std::size_t mirrored = *best % 2 == 0 ? *best + 1 : *best - 1;
   if (frames[*best].far_mm == 0.0 && is_better(frames[mirrored]))
@@ -171,7 +172,7 @@ std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
 }
 
 std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
-    const belts::AnchorFit& frame) {
+                                         const belts::AnchorFit& frame) {
   // A lost digit or another frame; smaller errors are left to the fit.
   constexpr double kNowhereMm = 100.0;
   std::vector<NowherePoint> result;
@@ -185,7 +186,8 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
     for (const Belt belt : kBelts) {
       const auto reading = model::reading_at(machine, belt, place);
       if (reading)
-        residual_mm = std::max(residual_mm, std::abs(belts.points[k].lengths_mm[belt] - reading->length_mm));
+        residual_mm =
+            std::max(residual_mm, std::abs(belts.points[k].lengths_mm[belt] - reading->length_mm));
     }
     if (residual_mm > kNowhereMm) result.push_back({k, residual_mm});
   }
@@ -193,12 +195,11 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
 }
 
 std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
-    const belts::AnchorFit& frame) {
+                                             const belts::AnchorFit& frame) {
   std::vector<BeltQuestion> result;
   const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
   const double scale_mm = std::max(frame.residual_sigma_mm, 0.5);
-  const double gross_mm =
-      std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
+  const double gross_mm = std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
       if (frame.counting[k][belt]) continue;
@@ -222,13 +223,11 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
         question = slip.question;
       }
       if (question.empty()) continue;
-      result.push_back({k,
-                        belt,
-                        fmt::format("{} is {} off the prediction by the other belts: {}",
-                                    name(belt),
-                                    input_checks::length_in_words(
-                                        std::abs(reading->length_mm - read_mm)),
-                                    question)});
+      result.push_back(
+          {k, belt,
+           fmt::format("{} is {} off the prediction by the other belts: {}", name(belt),
+                       input_checks::length_in_words(std::abs(reading->length_mm - read_mm)),
+                       question)});
     }
   }
   return result;
@@ -237,8 +236,7 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
 namespace {
 
 /// Where a tape ends, in the frame that the lengths alone make.
-std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
-                                      const MeasuredBelts& belts,
+std::optional<Eigen::Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
                                       const belts::AnchorFit& frame) {
   if (const auto* index = std::get_if<std::size_t>(&end)) {
     if (*index >= frame.state.places.size()) return std::nullopt;
@@ -267,8 +265,7 @@ std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts
 }
 
 /// One sigma of a predicted distance, mm.
-double sigma_of(const MeasuredBelts& belts,
-                const belts::FitDiagnostics& view,
+double sigma_of(const MeasuredBelts& belts, const belts::FitDiagnostics& view,
                 const BeltDistance& distance) {
   const auto expected = view.expected(belts, distance);
   return expected && expected->variance_mm2 > 0.0 ? std::sqrt(expected->variance_mm2) : kInfinity;
@@ -299,8 +296,7 @@ std::string question_of(double distance_mm, double by_belts_mm) {
   const double longer_mm = distance_mm - by_belts_mm;
   if (std::abs(std::abs(longer_mm) - kHeldAtMm) < kHeldNearMm) {
     question = fmt::format("it is {:.0f} mm too {}: was the tape held at its 100 mm mark?",
-                           std::abs(longer_mm),
-                           longer_mm > 0.0 ? "long" : "short");
+                           std::abs(longer_mm), longer_mm > 0.0 ? "long" : "short");
   }
   return question;
 }
@@ -329,8 +325,7 @@ std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
       if (j != i && by_belts_mm[j] && *by_belts_mm[j] >= input_checks::kGrossMm)
         others.push_back(belts.distances[j].distance_mm / *by_belts_mm[j]);
     }
-    const bool has_company =
-        !others.empty() && std::abs(factor / median(others) - 1.0) < kFarOff;
+    const bool has_company = !others.empty() && std::abs(factor / median(others) - 1.0) < kFarOff;
     const double far_mm = std::max((has_company ? kFarForAll : kFarOff) * *by_belts_mm[i],
                                    kSigmas * sigma_of(untaped, view, belts.distances[i]));
     const double gross_mm = kFarForAll * *by_belts_mm[i];
@@ -359,8 +354,7 @@ std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts) {
   const auto off = [&](const input_checks::WrittenUnit& unit) {
     return std::abs(std::log(unit.mm * middle / usual_mm));
   };
-  const input_checks::WrittenUnit& unit =
-      *min_element(input_checks::kWrittenUnits, ascending(off));
+  const input_checks::WrittenUnit& unit = *min_element(input_checks::kWrittenUnits, ascending(off));
   return OtherUnit{unit.word, unit.mm, middle};
 }
 

@@ -22,12 +22,8 @@ namespace {
 
 /// Writes the rows of a set from `row` on, after those of the sets before it; false if the machine
 /// cannot hold the tool at one of its holes. `origin`: where the first set's commands count from.
-bool put_set(const BeltHoles& holes,
-             const AnchorVector& anchors,
-             double factor,
-             FramePoint origin,
-             Eigen::Index row,
-             TapedRows& all) {
+bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor, FramePoint origin,
+             Eigen::Index row, TapedRows& all) {
   if (!holes.machine.anchors_known) {
     throw precondition("{} holes of a machine whose anchors in force are not known",
                        holes.set.holes.size());
@@ -73,8 +69,7 @@ bool put_set(const BeltHoles& holes,
 
 }  // namespace
 
-std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
-                                    const AnchorVector& anchors,
+std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const AnchorVector& anchors,
                                     double log_scale) {
   Eigen::Index distances = 0;
   Eigen::Index holes = 0;
@@ -98,8 +93,7 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
   return all;
 }
 
-Eigen::MatrixXd taped_covariance(const TapedRows& rows,
-                                 const TapedNoise& noise,
+Eigen::MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
                                  const std::vector<bool>& counting) {
   Eigen::MatrixXd covariance = noise.factor * noise.factor * rows.noise_mm2 + rows.shared_mm2;
   if (noise.size_mm > 0.0) {

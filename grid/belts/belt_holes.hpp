@@ -64,8 +64,7 @@ struct TapedRows {
 };
 /// Empty if the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
 /// machine whose anchors in force are not known.
-std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
-                                    const AnchorVector& anchors,
+std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const AnchorVector& anchors,
                                     double log_scale);
 
 /// Size and reach of the displacement, and the factor on the stated noise.
@@ -75,7 +74,6 @@ struct TapedNoise {
   double reach_mm = 1.0;
 };
 /// (1), with rejected distances given no weight.
-Eigen::MatrixXd taped_covariance(const TapedRows& rows,
-                                 const TapedNoise& noise,
+Eigen::MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
                                  const std::vector<bool>& counting);
 }  // namespace chaintrue::grid::belts

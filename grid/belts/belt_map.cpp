@@ -29,8 +29,7 @@ double span_mm(const model::BeltMachine& machine, Belt belt, FramePoint place) {
 }
 
 tl::expected<FramePoint, BeltFailure> end_of_spans(const model::BeltMachine& machine,
-                                                   double left_mm,
-                                                   double right_mm) {
+                                                   double left_mm, double right_mm) {
   const auto& a = machine.anchors;
   return model::crossing({a.tl.x_mm, a.tl.y_mm}, left_mm, {a.tr.x_mm, a.tr.y_mm}, right_mm);
 }
@@ -63,8 +62,7 @@ interp::Rectangle domain_of(const model::BeltMachine& machine) {
   const auto& a = machine.anchors;
   const double reach = model::reach_mm(machine);
   return {std::min(a.tl.x_mm, a.bl.x_mm) + reach - centre.x_mm,
-          std::max(a.tr.x_mm, a.br.x_mm) - reach - centre.x_mm,
-          reach - centre.y_mm,
+          std::max(a.tr.x_mm, a.br.x_mm) - reach - centre.x_mm, reach - centre.y_mm,
           std::max(a.tl.y_mm, a.tr.y_mm) - reach - centre.y_mm};
 }
 
@@ -115,8 +113,7 @@ class Placing {
   void refer_to_holes(const HolesWithBelts& holes) {
     for (const BeltHole& hole : holes.holes) {
       const FramePoint meant = model::to_frame(in_force_, hole.commanded);
-      references_.push_back({hole.commanded,
-                             span_mm(in_force_, Belt::tl, meant),
+      references_.push_back({hole.commanded, span_mm(in_force_, Belt::tl, meant),
                              span_mm(in_force_, Belt::tr, meant)});
     }
   }
@@ -158,19 +155,16 @@ class Placing {
   std::optional<Eigen::Vector3d> by_edges_;
 };
 
-MechanismMap map_of(const BeltsFit& fit,
-                    const HolesWithBelts* holes,
+MechanismMap map_of(const BeltsFit& fit, const HolesWithBelts* holes,
                     const model::BeltMachine& in_force) {
   using model::BeltLengths;
   const Placing placing(fit, holes, in_force);
   const Eigen::VectorXd unknowns = unknowns_of(fit, holes);
   // Level spans: a belt's slant carries no information about an error.
-  MechanismSpread spread =
-      spread_about(unknowns, covariance_of(fit, holes), [&](const Eigen::VectorXd& values) {
-        return placing.at(values, BeltLengths::span);
-      });
-  return {placing.at(unknowns, BeltLengths::belt),
-          std::move(spread),
+  MechanismSpread spread = spread_about(
+      unknowns, covariance_of(fit, holes),
+      [&](const Eigen::VectorXd& values) { return placing.at(values, BeltLengths::span); });
+  return {placing.at(unknowns, BeltLengths::belt), std::move(spread),
           MeasuredArea(placing.measured(), domain_of(in_force))};
 }
 

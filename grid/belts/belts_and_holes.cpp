@@ -64,8 +64,7 @@ Eigen::VectorXd frame_vector(const FrameState& state) {
 }
 
 /// r_b.
-Eigen::VectorXd about_the_known(const KnownFrame& known,
-                                const TapedRows& rows,
+Eigen::VectorXd about_the_known(const KnownFrame& known, const TapedRows& rows,
                                 const FrameState& state) {
   return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(known.state));
 }
@@ -233,12 +232,8 @@ using belts::TapedMarginal;
 using belts::TapedState;
 
 /// `frame` is the belts' own fit, and `fit` its report; both move to the state.
-void fill_frame(const MeasuredBelts& measured,
-                const KnownFrame& known,
-                const TapedState& state,
-                const Eigen::MatrixXd& covariance,
-                belts::AnchorFit frame,
-                BeltsFit& fit) {
+void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const TapedState& state,
+                const Eigen::MatrixXd& covariance, belts::AnchorFit frame, BeltsFit& fit) {
   fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
   for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
@@ -276,8 +271,7 @@ void fill_frame(const MeasuredBelts& measured,
 }
 
 /// Covariance of x and, if present, of the displacement at its places; and the displacement.
-Eigen::MatrixXd posterior(const KnownFrame& known,
-                          const TapedState& state,
+Eigen::MatrixXd posterior(const KnownFrame& known, const TapedState& state,
                           std::optional<DisplacementParts>& displacement) {
   const Eigen::MatrixXd& g = state.rows.by_mark;
   const bool smooth = state.noise.size_mm > 0.0;
@@ -303,8 +297,8 @@ Eigen::MatrixXd posterior(const KnownFrame& known,
   if (smooth) {
     const Eigen::VectorXd mean =
         linear::product(cross, linear::product(now.inverse, now.residual_mm));
-    displacement = DisplacementParts{
-        state.noise.size_mm, state.noise.reach_mm, state.rows.marks, mean.tail(moved)};
+    displacement = DisplacementParts{state.noise.size_mm, state.noise.reach_mm, state.rows.marks,
+                                     mean.tail(moved)};
   }
   return prior - linear::carried(cross, now.inverse);
 }
@@ -320,10 +314,8 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const TapedState& state, const Mea
   return observation::kSheetByEdges.sigma().cwiseAbs2().cwiseProduct(along);
 }
 
-void fill_distances(const KnownFrame& known,
-                    const std::vector<BeltHoles>& sets,
-                    const TapedState& state,
-                    HolesWithBelts& found) {
+void fill_distances(const KnownFrame& known, const std::vector<BeltHoles>& sets,
+                    const TapedState& state, HolesWithBelts& found) {
   const TapedMarginal now = marginal(known, state);
   std::vector<double> left_out;
   Eigen::Index row = 0;
@@ -360,8 +352,7 @@ std::optional<BeltsFitFailure> refused(const MeasuredBelts& measured,
     return BeltsFitFailure{Reason::too_many_distances,
                            fmt::format("{} distances are too many for a fit with belts (at most "
                                        "{}): leave some out, evenly over the sheet",
-                                       count,
-                                       kMostTapedByBelts)};
+                                       count, kMostTapedByBelts)};
   }
   return std::nullopt;
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/belts/fit_report.hpp"
@@ -30,8 +29,7 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
       BeltsFitFailure::Reason::not_determined,
       fmt::format("the places do not determine the anchors, because they lie on a line or in one "
                   "spot. Measure at places spread over the sheet's width and height{}{}",
-                  pulls.empty() ? "" : ". ",
-                  pulls));
+                  pulls.empty() ? "" : ". ", pulls));
 }
 
 /// No belt's readings differ by more than this: all places are in one spot.
@@ -52,15 +50,12 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
     return failed(Reason::too_few_points,
                   fmt::format("{} places are too few: {} give {} checks for five anchor "
                               "coordinates; measure at more places",
-                              belts.points.size(),
-                              kFewestBeltPoints,
-                              2 * kFewestBeltPoints - 5));
+                              belts.points.size(), kFewestBeltPoints, 2 * kFewestBeltPoints - 5));
   }
-  const bool has_holes =
-      any_of(belts.distances, [](const BeltDistance& distance) {
-        return std::holds_alternative<CutHole>(distance.from) ||
-               std::holds_alternative<CutHole>(distance.to);
-      });
+  const bool has_holes = any_of(belts.distances, [](const BeltDistance& distance) {
+    return std::holds_alternative<CutHole>(distance.from) ||
+           std::holds_alternative<CutHole>(distance.to);
+  });
   if (has_holes && !belts.machine.anchors_known) {
     return failed(Reason::hole_without_anchors,
                   "a distance ends at a hole, whose position depends on the anchors in force when "

@@ -105,10 +105,9 @@ struct BeltsFit {
   model::BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
   std::array<AnchorCoordinate, 5> coordinates;
   Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
-  double residual_sigma_mm = 0.0;  ///< (1)
-  int checks = 0;                  ///< the denominator of (1)
-  double rms_mm =
-      0.0;  ///< of all readings, as in the machine's message
+  double residual_sigma_mm = 0.0;       ///< (1)
+  int checks = 0;                       ///< the denominator of (1)
+  double rms_mm = 0.0;                  ///< of all readings, as in the machine's message
   model::PerBelt<double> rms_of_mm;     ///< of those that count
   std::vector<FittedPlace> places;      ///< of each point
   std::vector<BadBeltReading> bad;      ///< rejected, the worst first

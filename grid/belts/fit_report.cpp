@@ -73,10 +73,8 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
               descending([](const BadBeltReading& one) { return std::abs(one.residual_mm); }));
 }
 
-void fill_scale(const MeasuredBelts& belts,
-                const FitDiagnostics& view,
-                const Eigen::MatrixXd& covariance,
-                BeltsFit& fit) {
+void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view,
+                const Eigen::MatrixXd& covariance, BeltsFit& fit) {
   if (!view.has_scale()) return;
   BeltScale scale;
   scale.factor = std::exp(view.frame().state.log_scale);
@@ -90,11 +88,8 @@ void fill_scale(const MeasuredBelts& belts,
 
 /// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt
 /// that it takes does not count.
-void predict_point(const MeasuredBelts& belts,
-                   std::size_t point,
-                   const AnchorVector& anchors,
-                   const model::PerBelt<bool>& counting,
-                   std::vector<double>& residual_mm) {
+void predict_point(const MeasuredBelts& belts, std::size_t point, const AnchorVector& anchors,
+                   const model::PerBelt<bool>& counting, std::vector<double>& residual_mm) {
   if (!counting.tl || !counting.tr) return;
   const model::BeltMachine machine = with_anchors(belts.machine, anchors);
   const auto& lengths = belts.points[point].lengths_mm;
@@ -134,8 +129,7 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
 
 }  // namespace
 
-BeltsFit fit_report(const MeasuredBelts& belts,
-                    const FitDiagnostics& view,
+BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
                     const Eigen::MatrixXd& covariance) {
   BeltsFit fit;
   fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
@@ -149,8 +143,7 @@ BeltsFit fit_report(const MeasuredBelts& belts,
   return fit;
 }
 
-std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
-                                                const AnchorFit& frame,
+std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, const AnchorFit& frame,
                                                 const Refit& refit) {
   if (belts.points.size() < 2 * kFewestBeltPoints) return std::nullopt;
   const std::vector<std::size_t> order = in_order(belts);
@@ -161,10 +154,7 @@ std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
     const auto fitted = refit(from);
     if (!fitted || fitted->frame.checks < 1) return std::nullopt;
     for (std::size_t i = half; i < order.size(); i += 2) {
-      predict_point(fitted->belts,
-                    order[i],
-                    fitted->frame.state.anchors,
-                    frame.counting[order[i]],
+      predict_point(fitted->belts, order[i], fitted->frame.state.anchors, frame.counting[order[i]],
                     residual_mm);
     }
   }

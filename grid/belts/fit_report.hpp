@@ -18,8 +18,7 @@ namespace chaintrue::grid::belts {
 /// Everything except the predictions of each half of the places by the other. `belts` and `view`
 /// use the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
 /// logarithm too.
-BeltsFit fit_report(const MeasuredBelts& belts,
-                    const FitDiagnostics& view,
+BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
                     const Eigen::MatrixXd& covariance);
 
 /// A fit with what counts given, and the readings as its anchors explain them.
@@ -30,8 +29,7 @@ struct Refitted {
 using Refit = std::function<std::optional<Refitted>(const AnchorFit& from)>;
 /// Every second place, in the order of the visits, by the others, and those by these. Empty if a
 /// half has fewer than kFewestBeltPoints, or has no fit.
-std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
-                                                const AnchorFit& frame,
+std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, const AnchorFit& frame,
                                                 const Refit& refit);
 
 }  // namespace chaintrue::grid::belts

@@ -9,10 +9,8 @@
 
 namespace chaintrue::grid {
 
-std::vector<model::Belt> pulled_after(model::Orientation orientation,
-                                      model::BedPoint from,
-                                      model::BedPoint to,
-                                      std::size_t visit) {
+std::vector<model::Belt> pulled_after(model::Orientation orientation, model::BedPoint from,
+                                      model::BedPoint to, std::size_t visit) {
   using model::Belt;
   constexpr std::size_t kFirstRound = 6;
   // The firmware's own threshold.
@@ -76,7 +74,8 @@ std::string words_of(const BeltPull& pull) {
 }
 
 std::string words_of(const BeltEnd& end) {
-  if (const auto* index = std::get_if<std::size_t>(&end)) return fmt::format("point {}", *index + 1);
+  if (const auto* index = std::get_if<std::size_t>(&end))
+    return fmt::format("point {}", *index + 1);
   if (const auto* belt = std::get_if<model::Belt>(&end)) {
     return fmt::format("the {} anchor", model::words(*belt));
   }

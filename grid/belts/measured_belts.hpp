@@ -82,10 +82,8 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
 
 /// Belts that the firmware pulls at a place: on an upright frame the lower two; on a flat one those
 /// behind the last move, and at the first six places the lower two. `visit` counts from 0.
-std::vector<model::Belt> pulled_after(model::Orientation orientation,
-                                      model::BedPoint from,
-                                      model::BedPoint to,
-                                      std::size_t visit);
+std::vector<model::Belt> pulled_after(model::Orientation orientation, model::BedPoint from,
+                                      model::BedPoint to, std::size_t visit);
 /// The lengths alone.
 [[nodiscard]] MeasuredBelts without_distances(MeasuredBelts belts);
 

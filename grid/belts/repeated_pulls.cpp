@@ -69,12 +69,9 @@ std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
       "Places read at two pulls, with the holding belts unchanged, show how much the pulled belts "
       "stretch from one pull to the other:";
   for (const RepeatedPull& pull : found) {
-    text += fmt::format("{} points {} and {} {:.3f} +- {:.3f} %",
-                        &pull == &found.front() ? "" : ",",
-                        pull.first + 1,
-                        pull.second + 1,
-                        100.0 * pull.share,
-                        100.0 * pull.sigma);
+    text +=
+        fmt::format("{} points {} and {} {:.3f} +- {:.3f} %", &pull == &found.front() ? "" : ",",
+                    pull.first + 1, pull.second + 1, 100.0 * pull.share, 100.0 * pull.sigma);
   }
   return text + ".";
 }

@@ -65,8 +65,7 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
 }
 
 /// One sigma of the scale with this distance as well; infinity if it is not determined.
-double sigma_with(const MeasuredBelts& belts,
-                  const belts::FitDiagnostics& view,
+double sigma_with(const MeasuredBelts& belts, const belts::FitDiagnostics& view,
                   BeltDistance& distance) {
   const auto expected = view.expected(belts, distance);
   if (!expected || !(expected->mm > 0.0)) return kInfinity;

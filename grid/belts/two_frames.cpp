@@ -34,7 +34,8 @@ MeasuredBelts evenly_of(const MeasuredBelts& belts, std::size_t first, std::size
   return part;
 }
 
-std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::size_t first, std::size_t end) {
+std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::size_t first,
+                                             std::size_t end) {
   auto fitted = belts::fit_anchors(evenly_of(belts, first, end));
   return fitted && fitted->is_sound ? std::optional(*std::move(fitted)) : std::nullopt;
 }
@@ -49,7 +50,8 @@ double apart_mm(const MeasuredBelts& belts, std::size_t end, std::size_t begin) 
   // tl x and y, tr x and y, br x
   const belts::AnchorVector moved = (after->state.anchors - before->state.anchors).cwiseAbs();
   const int anchors = (moved.segment<2>(0).maxCoeff() > kStandsElsewhereMm) +
-                      (moved.segment<2>(2).maxCoeff() > kStandsElsewhereMm) + (moved[4] > kStandsElsewhereMm);
+                      (moved.segment<2>(2).maxCoeff() > kStandsElsewhereMm) +
+                      (moved[4] > kStandsElsewhereMm);
   if (anchors < 2) return kInfinity;
   return std::max(before->residual_sigma_mm, after->residual_sigma_mm);
 }

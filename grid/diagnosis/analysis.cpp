@@ -73,24 +73,19 @@ DiagnosisFailure unreachable(const ObservationSet& session,
   const NumberedPlace& place = session.places[failure.place];
   const ObservationPart& part = session.parts[place.part];
   return {DiagnosisFailure::Reason::point_unreachable,
-          fmt::format("{} {} at ({:.1f}, {:.1f}) mm: {}",
-                      part.observation->kind().place,
+          fmt::format("{} {} at ({:.1f}, {:.1f}) mm: {}", part.observation->kind().place,
                       part.observation->places()[failure.place - part.first_place].name,
-                      place.mark.x_mm,
-                      place.mark.y_mm,
-                      failure.sentence())};
+                      place.mark.x_mm, place.mark.y_mm, failure.sentence())};
 }
 
 DiagnosisFailure impossible(const ObservationSet& session, const model::MachineProblem& problem) {
   const std::string_view units = session.units_word();
-  return {DiagnosisFailure::Reason::contradictory_settings,
-          fmt::format("no machine near the one in your file fits these {}: calibrating leads to {} "
-                      "= {}. Check the feed, the attachment and the motors' positions, and that "
-                      "the {} are those of this machine",
-                      units,
-                      problem.parameter,
-                      problem.value,
-                      units == "points" ? "lengths" : units)};
+  return {
+      DiagnosisFailure::Reason::contradictory_settings,
+      fmt::format("no machine near the one in your file fits these {}: calibrating leads to {} "
+                  "= {}. Check the feed, the attachment and the motors' positions, and that "
+                  "the {} are those of this machine",
+                  units, problem.parameter, problem.value, units == "points" ? "lengths" : units)};
 }
 
 /// The largest of the settings' changes at the tool; a turn of the sheet counts at its edge.
@@ -128,8 +123,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
 }
 
 /// Fits the named member of each class, so that settings and sizes are consistent.
-void speak_of_leaders(const RegressorSystem& system,
-                      const ModelComparison& comparison,
+void speak_of_leaders(const RegressorSystem& system, const ModelComparison& comparison,
                       Decision& decision) {
   for (int& k : decision.regressors) {
     const CauseId own = system.regressor(k).cause;
@@ -193,8 +187,8 @@ void test_significance(const AnalysisRules& rules, Analysis& a) {
   const MarginalisedSystem& marginalised = own ? of_own : best;
   // Given the length of the residuals, nothing else is known about the noise.
   constexpr double kNothingStated = 1e-3;
-  const SingleScore score(
-      causes, marginalised, rules.noise == NoiseSize::stated ? causes.noise_dof : kNothingStated);
+  const SingleScore score(causes, marginalised,
+                          rules.noise == NoiseSize::stated ? causes.noise_dof : kNothingStated);
   // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
   constexpr std::size_t kManyUnits = 150;
   const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
@@ -238,16 +232,13 @@ const AnalysisRules& calibrated_rules() {
 
 void estimate_decided(Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  a.noise = discrepancy_noise(
-      a.system, marginalised, a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+  a.noise = discrepancy_noise(a.system, marginalised,
+                              a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
   a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());
 }
 
 void decide_by(const AnalysisRules& rules, bool detected, Analysis& a) {
-  a.decision = decide(a.system,
-                      a.comparison,
-                      nothing_rejected(a.system),
-                      detected,
+  a.decision = decide(a.system, a.comparison, nothing_rejected(a.system), detected,
                       classes_of(a.system, a.comparison));
   speak_of_leaders(a.system, a.comparison, a.decision);
   rules.restrain(detected, a);

@@ -82,8 +82,7 @@ void decide_by(const AnalysisRules& rules, bool detected, Analysis& a);
 void judge(const AnalysisRules& rules, Analysis& a);
 /// Compares and judges the causes again about the same state, after subtracting `rows` (whitened,
 /// one for each row of the system) from the readings.
-Analysis analyse_without(Analysis analysis,
-                         const Eigen::VectorXd& rows,
+Analysis analyse_without(Analysis analysis, const Eigen::VectorXd& rows,
                          const AnalysisRules& rules);
 
 /// For every machine except four belts.

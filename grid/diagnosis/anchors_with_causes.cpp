@@ -35,8 +35,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
 /// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty if the
 /// distances do not converge.
 std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_causes,
-                                              const AveragedAnchors& averaged,
-                                              AnchorFit& frame) {
+                                              const AveragedAnchors& averaged, AnchorFit& frame) {
   const MeasuredBelts untaped = without_distances(without_causes);
   const auto alone = belts::fit_anchors_from(untaped, frame.state, frame.counting);
   const auto taped = belts::fit_anchors_from(without_causes, frame.state, frame.counting);

@@ -14,8 +14,8 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   std::vector<Cause> used = diagnosis.causes;
   if (diagnosis.verdict == Verdict::named_set) used.resize(1);
   // An extension must improve left-out points.
-  const bool worse =
-      diagnosis.improvement && diagnosis.improvement->extended.rms_mm >= diagnosis.improvement->calibrated.rms_mm;
+  const bool worse = diagnosis.improvement && diagnosis.improvement->extended.rms_mm >=
+                                                  diagnosis.improvement->calibrated.rms_mm;
   std::vector<model::AppliedEffect> into_machine;
   RegressorSet taken;
   for (const Cause& cause : used) {
@@ -34,9 +34,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
     taken.push_back(column);
   }
   // The settings that go with the applied causes only.
-  const Estimate fitted = taken.empty()
-                              ? estimate_of(a, {})
-                              : estimate_with(a, taken);
+  const Estimate fitted = taken.empty() ? estimate_of(a, {}) : estimate_with(a, taken);
   const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
   append_all(diagnosis.extended_machine.effects, into_machine);

@@ -70,8 +70,7 @@ SizePrior prior_of(const Regressor& regressor, double noise_square) {
 
 /// Restricts sizes to their usual spread, except for known causes. \returns the logarithm of the
 /// factor on the model's evidence.
-double hold_to_usual_sizes(const std::vector<SizedCause>& known,
-                           const RegressorSystem& system,
+double hold_to_usual_sizes(const std::vector<SizedCause>& known, const RegressorSystem& system,
                            Estimate& found) {
   const Eigen::Index settings = found.setting_change.size();
   Eigen::VectorXd change = Eigen::VectorXd::Zero(found.covariance.rows());
@@ -246,8 +245,7 @@ class Averaging {
     std::vector<Key> causes;
     for (const int index : model.regressors) causes.push_back(key_of(system_.regressor(index)));
     sort_unique(causes);
-    parts_.push_back({weight,
-                      std::move(causes),
+    parts_.push_back({weight, std::move(causes),
                       found.setting_change.head<belts::kAnchorUnknowns>(),
                       AnchorSquare(found.setting_covariance)});
     for (std::size_t k = 0; k < model.regressors.size(); ++k) {

@@ -76,8 +76,7 @@ ModelKey key_of(const CandidateModel& model) {
 
 PartPosterior summary(const RegressorSystem& system,
                       const std::vector<const CandidateModel*>& models,
-                      const std::vector<double>& probability,
-                      BedPart part) {
+                      const std::vector<double>& probability, BedPart part) {
   PartPosterior result;
   result.left_out = std::move(part);
   for (std::size_t k = 0; k < models.size(); ++k) {
@@ -112,8 +111,7 @@ std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateM
 
 /// Redistributes the total weight of models with a pattern among the followed ones; those without
 /// keep theirs.
-void redistribute(const std::map<ModelKey, double>& shares,
-                  double together,
+void redistribute(const std::map<ModelKey, double>& shares, double together,
                   ModelComparison& comparison) {
   // Floor for a model that no part supports, so that its logarithm is finite.
   constexpr double kNothing = 1e-300;
@@ -129,8 +127,7 @@ void redistribute(const std::map<ModelKey, double>& shares,
 
 }  // namespace
 
-std::vector<BedPart> bed_parts(const RegressorSystem& system,
-                               const Flags& excluded,
+std::vector<BedPart> bed_parts(const RegressorSystem& system, const Flags& excluded,
                                std::size_t fewest) {
   const std::vector<UnitPlace> places = places_of_units(system, excluded);
   const auto out = static_cast<std::size_t>(kShareLeftOut * as_double(places.size()));
@@ -161,8 +158,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
   return parts;
 }
 
-std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
-                                              std::size_t fewest,
+std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std::size_t fewest,
                                               ModelComparison& comparison) {
   std::vector<PartPosterior> result;
   double pattern = 0.0;
@@ -187,8 +183,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
   return result;
 }
 
-std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
-                                                 std::size_t fewest,
+std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system, std::size_t fewest,
                                                  const ModelComparison& comparison) {
   Indices units;  // of each session
   for (const SystemUnit& unit : system.units) {

@@ -42,8 +42,7 @@ struct BedPart {
 /// outlier groups); only those that leave at least `fewest` units, not on one line. A distance
 /// counts at its midpoint. Empty where fewer than half of the sixteen can be formed: the least
 /// number of readings in which one direction does not outweigh the others.
-std::vector<BedPart> bed_parts(const RegressorSystem& system,
-                               const Flags& excluded,
+std::vector<BedPart> bed_parts(const RegressorSystem& system, const Flags& excluded,
                                std::size_t fewest);
 
 /// The result from some of the readings alone.
@@ -56,8 +55,7 @@ struct PartPosterior {
 
 /// Replaces the weights by averaged probabilities and returns the results of the parts. The
 /// comparison is unchanged if no parts can be formed or a pattern is not more likely than not.
-std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
-                                              std::size_t fewest,
+std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std::size_t fewest,
                                               ModelComparison& comparison);
 
 /// Results of each session alone; sessions of fewer than `fewest` units are left out, and the
@@ -68,8 +66,7 @@ struct SessionPosterior {
   std::size_t units = 0;
   PartPosterior posterior;
 };
-std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
-                                                 std::size_t fewest,
+std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system, std::size_t fewest,
                                                  const ModelComparison& comparison);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -130,10 +130,9 @@ bool BeltRules::refit(Analysis& a) const {
 
 std::optional<RegressorSystem> BeltRules::tried_with_noise(const Analysis& a) const {
   const belts::FrameState& frame = belts_.alone.state;
-  RegressorSystem system = system_of(belts_.belts,
-                                     frame,
-                                     observations_of(belts_.belts, frame, belts_.sigma_mm),
-                                     a.candidates.testable);
+  RegressorSystem system =
+      system_of(belts_.belts, frame, observations_of(belts_.belts, frame, belts_.sigma_mm),
+                a.candidates.testable);
   if (a.taken_out.size() > 0) system.e -= a.taken_out;
   return system;
 }
@@ -192,8 +191,7 @@ tl::expected<BeltsAnalysis, BeltsFitFailure> analyse(const MeasuredBelts& belts,
   a.measured = belts;
   a.belts = without_distances(belts);
   const auto alone = belts::fit_anchors_robustly(a.belts);
-  if (!alone)
-    return failed(BeltsFitFailure::Reason::no_frame, "no four anchors fit these lengths");
+  if (!alone) return failed(BeltsFitFailure::Reason::no_frame, "no four anchors fit these lengths");
   a.alone = a.frame = *alone;
   a.sigma_mm = kUsualSpreadMm;
   a.options = options;

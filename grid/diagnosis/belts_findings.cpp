@@ -20,8 +20,7 @@ namespace {
 /// rms of the distances from where the machine believes the tool, by the upper two belts, to where it is,
 /// after the best rigid motion of the frame, which only places the sheet. Without places where these
 /// belts do not meet.
-double shape_error_mm(const model::BeltMachine& by,
-                      const model::BeltMachine& real,
+double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& real,
                       const std::vector<model::effects::ActingEffect>& effects,
                       const std::vector<FramePoint>& places) {
   // During cutting the upper two hold; effects that set in at a visit are present.
@@ -50,8 +49,7 @@ double shape_error_mm(const model::BeltMachine& by,
 }
 
 /// Root mean square over shifts along each axis of the anchors' uncertainty, in both directions.
-double uncertain_mm(const model::BeltMachine& machine,
-                    const Eigen::MatrixXd& covariance,
+double uncertain_mm(const model::BeltMachine& machine, const Eigen::MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
   const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
@@ -59,15 +57,13 @@ double uncertain_mm(const model::BeltMachine& machine,
     const belts::AnchorVector moved =
         belts::anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
-    const double own =
-        shape_error_mm(belts::with_anchors(machine, moved), machine, {}, places);
+    const double own = shape_error_mm(belts::with_anchors(machine, moved), machine, {}, places);
     square += own * own;
   }
   return std::sqrt(square);
 }
 
-ToolError tool_error(const BeltsAnalysis& a,
-                     const FitGivenCauses& given,
+ToolError tool_error(const BeltsAnalysis& a, const FitGivenCauses& given,
                      const model::BeltMachine& machine) {
   const auto effects = resolved(given.causes);
   const std::vector<FramePoint>& places = given.frame.state.places;
@@ -92,7 +88,8 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
 
 /// From the tape, after correcting for the causes: a stretch lengthens the belts' millimetres as a
 /// scale does and would otherwise be corrected twice. Unknown if no frame fits the tape after that.
-std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const FitGivenCauses& given) {
+std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts,
+                                            const FitGivenCauses& given) {
   if (belts.distances.empty()) return std::nullopt;
   MeasuredBelts taped = given.belts;
   taped.distances = belts.distances;
@@ -110,8 +107,7 @@ FitGivenCauses explained(const BeltsAnalysis& a) {
   return as_before;
 }
 
-BeltsFindings findings_of(const BeltsAnalysis& a,
-                          const FitGivenCauses& given,
+BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
                           const belts::FitDiagnostics& view) {
   const belts::AnchorFit& frame = given.frame;
   BeltsFindings found;
@@ -119,10 +115,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a,
   for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
     const AnchorCoordinate& before = a.before.coordinates[i];
     const auto at = as_index(i);
-    found.coordinates[i] = {before.name,
-                            before.stated_mm,
-                            before.fitted_mm,
-                            a.averaged.anchors[at],
+    found.coordinates[i] = {before.name, before.stated_mm, before.fitted_mm, a.averaged.anchors[at],
                             std::sqrt(a.averaged.covariance_mm2(at, at))};
   }
   found.spread_before_mm = a.before.residual_sigma_mm;
@@ -178,14 +171,15 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
     residual(row) = view.equations().residual_mm(at) / view.sigma_mm();
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
-  const Eigen::Vector2d moved =
-      Eigen::LDLT<Eigen::Matrix2d>(by_place.transpose() * by_place).solve(by_place.transpose() * residual);
+  const Eigen::Vector2d moved = Eigen::LDLT<Eigen::Matrix2d>(by_place.transpose() * by_place)
+                                    .solve(by_place.transpose() * residual);
   return (residual - by_place * moved).squaredNorm();
 }
 
 /// The belt that may be wrong instead: on the line between two anchors only the other two belts
 /// determine the distance from it, so the readings cannot show which of them is wrong.
-std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::size_t point, Belt bad) {
+std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::size_t point,
+                                        Belt bad) {
   // Odds of twenty to one distinguish them.
   const double limit = left_without(view, point, bad) + 2.0 * std::log(20.0);
   std::optional<Belt> other;

@@ -39,10 +39,8 @@ std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
 }
 
 /// Derivative of the readings by each, mm per unit.
-Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
-                              const std::vector<SizedCause>& causes,
-                              const belts::FrameState& state,
-                              const std::vector<FreeValue>& free) {
+Eigen::MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
+                              const belts::FrameState& state, const std::vector<FreeValue>& free) {
   // Share of a value's usual spread, for difference quotients.
   constexpr double kStep = 0.05;
   Eigen::MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
@@ -58,8 +56,7 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
 }
 
 /// Applies the step; returns true once it is below the values' uncertainty.
-bool moved(const Eigen::VectorXd& change,
-           const std::vector<FreeValue>& free,
+bool moved(const Eigen::VectorXd& change, const std::vector<FreeValue>& free,
            std::vector<SizedCause>& causes) {
   // Share of a value's usual spread: a hundredth of what the best data leave uncertain.
   constexpr double kConverged = 1e-4;
@@ -97,8 +94,7 @@ Eigen::VectorXd least_squares(const FitGivenCauses& given, const Eigen::MatrixXd
 
 }  // namespace
 
-Eigen::VectorXd added_by(const MeasuredBelts& belts,
-                         const std::vector<SizedCause>& causes,
+Eigen::VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
                          const belts::FrameState& state) {
   Eigen::VectorXd added = Eigen::VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
@@ -112,8 +108,8 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
     for (std::size_t k = 0; k < belts.points.size(); ++k) {
       const model::FramePoint at = state.places[k];
       const BeltPoint& point = belts.points[k];
-      const model::belts::BeltVisit visit{
-          belt, pulled_belts(point), point.order.value_or(0), pull_over(reference, point)};
+      const model::belts::BeltVisit visit{belt, pulled_belts(point), point.order.value_or(0),
+                                          pull_over(reference, point)};
       const auto with = model::belts::read_belt(machine, effects, visit, at);
       const auto without = model::belts::read_belt(machine, {}, visit, at);
       if (with && without) added[belts::row_of(k, belt)] = with->value - without->value;
@@ -122,21 +118,19 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
   return added;
 }
 
-MeasuredBelts without_effects(const MeasuredBelts& belts,
-                              const std::vector<SizedCause>& causes,
+MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
                               const belts::FrameState& state) {
   MeasuredBelts without_causes = belts;
   const Eigen::VectorXd added = added_by(belts, causes, state);
   for (std::size_t k = 0; k < without_causes.points.size(); ++k) {
-    for (const Belt belt : kBelts) without_causes.points[k].lengths_mm[belt] -= added[belts::row_of(k, belt)];
+    for (const Belt belt : kBelts)
+      without_causes.points[k].lengths_mm[belt] -= added[belts::row_of(k, belt)];
   }
   return without_causes;
 }
 
-ObservationSet observations_of(const MeasuredBelts& belts,
-                               const belts::FrameState& state,
-                               double sigma_mm,
-                               const belts::Counting& counting) {
+ObservationSet observations_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                               double sigma_mm, const belts::Counting& counting) {
   const auto mechanism = belts::mechanism_at(belts, state);
   std::vector<model::FramePoint> about = state.places;
   for (model::FramePoint& at : about) {

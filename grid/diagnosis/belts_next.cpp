@@ -57,8 +57,7 @@ class NextPlaces {
   }
 
   /// True if the machine reaches it. The default pull is the one that sizes refer to.
-  bool add(model::FramePoint at,
-           const std::optional<std::vector<Belt>>& pulled,
+  bool add(model::FramePoint at, const std::optional<std::vector<Belt>>& pulled,
            const std::optional<BeltPull>& pull = std::nullopt) {
     const auto lengths = model::lengths_at(belts.machine, at);
     if (!lengths) return false;
@@ -121,8 +120,8 @@ void add_places(NextPlaces& next) {
     const model::BedPoint command{whole(at.x_mm - centre.x_mm), whole(at.y_mm - centre.y_mm)};
     for (const Approach& way : approaches(machine.orientation)) {
       if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, way.pulled))
-        next.propose(
-            MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words), command);
+        next.propose(MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words),
+                     command);
     }
   }
 }
@@ -137,8 +136,7 @@ void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlace
     const BeltPoint& point = a.belts.points[k];
     if (!next.add(at, point.pulled, point.pull)) continue;
     next.propose(
-        MeasurementKind::revisit,
-        fmt::format("point {} again", index_in_file(indices, k) + 1),
+        MeasurementKind::revisit, fmt::format("point {} again", index_in_file(indices, k) + 1),
         point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
                                                  std::round(at.y_mm - centre.y_mm) + 0.0}));
   }

@@ -46,8 +46,7 @@ struct BeltsNext {
 BeltsNext next_measurements(const BeltsAnalysis& analysis, const PointIndices& indices);
 
 /// What to measure next; last, if no tape determines the scale, the distance that would.
-std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& analysis,
-                                             const BeltsNext& next,
+std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& analysis, const BeltsNext& next,
                                              const PointIndices& indices);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.

@@ -35,14 +35,8 @@ struct Teeth {
   double teeth;
   double share;
 };
-constexpr Teeth kTeeth[] = {{1.0, 0.25},
-                            {-1.0, 0.25},
-                            {2.0, 0.1},
-                            {-2.0, 0.1},
-                            {3.0, 0.05},
-                            {-3.0, 0.05},
-                            {22.0, 0.1},
-                            {-22.0, 0.1}};
+constexpr Teeth kTeeth[] = {{1.0, 0.25}, {-1.0, 0.25}, {2.0, 0.1},  {-2.0, 0.1},
+                            {3.0, 0.05}, {-3.0, 0.05}, {22.0, 0.1}, {-22.0, 0.1}};
 
 /// No published frame shows anything besides stretch. One other cause is a third as likely as with
 /// chains: a sixth as likely as none. Nearly all frames leave a smooth pattern as well, so a
@@ -91,10 +85,8 @@ double share_of(const Effect& effect, const CausePrior& prior) {
 
 /// A cause with all values at which it is compared. `found` is the cause as the comparison before found
 /// it, or null; what sets in may do so at each of `visits`.
-std::vector<Regressor> tried_of(const CauseId& cause,
-                                const SizedCause* found,
-                                const std::vector<int>& visits,
-                                const CausePrior& prior) {
+std::vector<Regressor> tried_of(const CauseId& cause, const SizedCause* found,
+                                const std::vector<int>& visits, const CausePrior& prior) {
   const Effect& effect = *cause.effect;
   const std::size_t parameters = effect.parameters.size();
   const bool known = found != nullptr;
@@ -138,11 +130,10 @@ std::vector<Regressor> tried_of(const CauseId& cause,
 
 /// Columns of one cause. From its first visit on a column does not depend on that visit, so one
 /// evaluation serves all visits.
-ColumnOf columns_of(const MeasuredBelts& belts,
-                    const belts::FrameState& state,
+ColumnOf columns_of(const MeasuredBelts& belts, const belts::FrameState& state,
                     const RegressorSystem& system) {
-  return [&, from_the_start = std::map<std::vector<double>, Eigen::VectorXd>()](
-             SizedCause cause) mutable {
+  return [&, from_the_start =
+                 std::map<std::vector<double>, Eigen::VectorXd>()](SizedCause cause) mutable {
     if (cause.values.size() == 1) return column_of(belts, state, system, cause);
     const double visit = std::exchange(cause.values.back(), std::numeric_limits<int>::min());
     Eigen::VectorXd& whole = from_the_start[cause.values];
@@ -198,8 +189,7 @@ Candidates candidates(const MeasuredBelts& belts) {
 namespace {
 
 /// `index` numbers the file's points.
-SystemPlace place_of(const MeasuredBelts& belts,
-                     const belts::FrameState& state,
+SystemPlace place_of(const MeasuredBelts& belts, const belts::FrameState& state,
                      std::size_t index) {
   const BeltPoint& point = belts.points[index];
   const model::FramePoint where = state.places[index];
@@ -219,10 +209,8 @@ SystemPlace place_of(const MeasuredBelts& belts,
 
 }  // namespace
 
-RegressorSystem system_of(const MeasuredBelts& belts,
-                          const belts::FrameState& state,
-                          const ObservationSet& session,
-                          const std::vector<CauseId>& causes,
+RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                          const ObservationSet& session, const std::vector<CauseId>& causes,
                           const std::vector<SizedCause>& known) {
   // Two rows more than anchors are needed; otherwise no degrees of freedom remain.
   constexpr Eigen::Index kFewestChecks = 3;
@@ -262,10 +250,8 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   return system;
 }
 
-Eigen::VectorXd column_of(const MeasuredBelts& belts,
-                          const belts::FrameState& state,
-                          const RegressorSystem& system,
-                          const SizedCause& cause) {
+Eigen::VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                          const RegressorSystem& system, const SizedCause& cause) {
   const Eigen::VectorXd added = added_by(belts, {cause}, state);
   Eigen::VectorXd column(system.e.size());
   for (std::size_t u = 0; u < system.units.size(); ++u) {

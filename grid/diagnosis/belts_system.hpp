@@ -37,8 +37,7 @@ std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>
 
 /// What the causes add to the printed lengths, 4 N numbers in mm in the order of row_of(); 0 for
 /// readings that such a machine cannot give.
-Eigen::VectorXd added_by(const MeasuredBelts& belts,
-                         const std::vector<SizedCause>& causes,
+Eigen::VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
                          const belts::FrameState& state);
 
 /// The readings minus that.
@@ -49,10 +48,8 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
 /// The readings that count, by default all, about a state; units are points of which three or four
 /// count. A point that the machine cannot reach there (a gross error) is linearised about the frame's
 /// middle. \pre no distances.
-ObservationSet observations_of(const MeasuredBelts& belts,
-                               const belts::FrameState& state,
-                               double sigma_mm,
-                               const belts::Counting& counting = {});
+ObservationSet observations_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                               double sigma_mm, const belts::Counting& counting = {});
 
 /// Converged anchors, places and sizes; `belts` are the readings corrected for the causes.
 struct FitGivenCauses : belts::Refitted {
@@ -69,16 +66,12 @@ Candidates candidates(const MeasuredBelts& belts);
 
 /// The system of readings that all count, about this state, with a regressor for each of `causes`
 /// at every place where it may set in. Regressors of known causes are secants at their values.
-RegressorSystem system_of(const MeasuredBelts& belts,
-                          const belts::FrameState& state,
-                          const ObservationSet& session,
-                          const std::vector<CauseId>& causes = {},
+RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                          const ObservationSet& session, const std::vector<CauseId>& causes = {},
                           const std::vector<SizedCause>& known = {});
 
 /// What a cause adds to the checks of a system of these belts about this state, whitened.
-Eigen::VectorXd column_of(const MeasuredBelts& belts,
-                          const belts::FrameState& state,
-                          const RegressorSystem& system,
-                          const SizedCause& cause);
+Eigen::VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                          const RegressorSystem& system, const SizedCause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -25,14 +25,12 @@ std::string end_of(const BeltEnd& end, const PointIndices& indices) {
 
 std::string improvement_words(const BeltsFindings& found) {
   std::string text = fmt::format(" The error of one belt's reading falls from {:.2f} to {:.2f} mm",
-                                 found.spread_before_mm,
-                                 found.residual_sigma_mm);
+                                 found.spread_before_mm, found.residual_sigma_mm);
   if (found.prediction && found.prediction_before) {
     text += fmt::format(
         "; that of the lower belts, predicted from the upper two at left-out places, from {:.2f} "
         "to {:.2f} mm",
-        found.prediction_before->rms_mm,
-        found.prediction->rms_mm);
+        found.prediction_before->rms_mm, found.prediction->rms_mm);
   }
   return text + ".";
 }
@@ -58,8 +56,7 @@ std::string short_of_a_name(const Diagnosis& d) {
              : fmt::format(
                    " No cause is certain, but one of {} is possible; these lengths do not "
                    "distinguish them: {}.",
-                   parts.size(),
-                   joined(parts, "or"));
+                   parts.size(), joined(parts, "or"));
 }
 
 std::string sentence(const Diagnosis& d) {
@@ -78,15 +75,13 @@ std::string sentence(const Diagnosis& d) {
       return fmt::format(
                  "The errors of the lengths, {:.2f} mm per belt, change smoothly over about {:.0f} "
                  "mm of the sheet, and no listed cause explains them.",
-                 d.unexplained->rms_mm,
-                 d.unexplained->length_mm) +
+                 d.unexplained->rms_mm, d.unexplained->length_mm) +
              short_of_a_name(d);
     default:
       return fmt::format(
                  "Nothing is wrong apart from the anchors: the error of the lengths at {} places, "
                  "{:.2f} mm per belt, has no listed cause.",
-                 d.belts->places.size(),
-                 d.belts->residual_sigma_mm) +
+                 d.belts->places.size(), d.belts->residual_sigma_mm) +
              short_of_a_name(d);
   }
 }
@@ -105,8 +100,7 @@ std::string left_out_arms(const model::BeltMachine& machine, const Diagnosis& d)
           "The lengths do not include arm and extension ({:.0f} mm in the settings; all lengths "
           "are {:.0f} mm too short): set \"lengths\": \"belt\", or import with --lengths belt, and "
           "diagnose again.",
-          reach,
-          -offset);
+          reach, -offset);
     }
   }
   return "";
@@ -141,8 +135,7 @@ std::string next_words(const BeltsNext& next, const Diagnosis& d) {
   } else if (all >= kWorthMeasuring && all > reached + kWorthASession) {
     said.push_back(fmt::format(
         "{}: measuring every place again, the last one first, raises the chance of {} to {}.",
-        said.empty() ? "A few places do not separate the remaining causes" : "More",
-        aim_of(d),
+        said.empty() ? "A few places do not separate the remaining causes" : "More", aim_of(d),
         percent(all)));
   }
   if (!said.empty()) return fmt::format("{}", fmt::join(said, " "));
@@ -180,8 +173,8 @@ void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
         "unknown.");
     return;
   }
-  const bool proposed = !d.next_measurements.empty() &&
-                        d.next_measurements.back().kind == MeasurementKind::distance;
+  const bool proposed =
+      !d.next_measurements.empty() && d.next_measurements.back().kind == MeasurementKind::distance;
   steps.push_back(fmt::format(
       "Tape {}, and enter it under distances: belts do not show the size of the frame.",
       proposed ? d.next_measurements.back().words
@@ -192,18 +185,16 @@ void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
 std::string firmware_words(const BeltsAnalysis& a, const Diagnosis& d) {
   const std::optional<FirmwareFit>& machine = a.measured.firmware_fit;
   return fmt::format(
-      "\"Find Anchors fit: rms\"{}{:.2f} mm by its formula. It divides by all {} readings, but there "
+      "\"Find Anchors fit: rms\"{}{:.2f} mm by its formula. It divides by all {} readings, but "
+      "there "
       "are only {} degrees of freedom: the error of one belt's reading is {:.2f} mm{}.",
       machine ? fmt::format(": the machine printed {:.2f} mm; anchors alone make ", machine->rms_mm)
               : " for these readings would be ",
-      a.before.rms_mm,
-      4 * a.belts.points.size(),
-      a.before.checks,
-      a.before.residual_sigma_mm,
-      d.causes.empty() ? ""
-                       : fmt::format(", with {} by {:.2f} mm",
-                                     d.causes.size() == 1 ? "the cause" : "the causes",
-                                     d.belts->residual_sigma_mm));
+      a.before.rms_mm, 4 * a.belts.points.size(), a.before.checks, a.before.residual_sigma_mm,
+      d.causes.empty()
+          ? ""
+          : fmt::format(", with {} by {:.2f} mm", d.causes.size() == 1 ? "the cause" : "the causes",
+                        d.belts->residual_sigma_mm));
 }
 
 }  // namespace
@@ -214,14 +205,10 @@ std::string in_words(const SecondPass& pass) {
       "hard (Maslow_Calibration_Current_Threshold times {:g}), and give both logs as one session: "
       "chaintrue import maslow4 first.log second.log --pulls 1,{:g}. That separates causes that "
       "yield with the pull from others: the chance of a single name is {}.",
-      pass.times,
-      pass.times,
-      pass.times,
-      percent(pass.raises_probability_to));
+      pass.times, pass.times, pass.times, percent(pass.raises_probability_to));
 }
 
-std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& a,
-                                             const BeltsNext& next,
+std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& a, const BeltsNext& next,
                                              const PointIndices& indices) {
   std::vector<NextMeasurement> list;
   if (tells(next)) list = next.measurements;
@@ -231,20 +218,17 @@ std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& a,
       MeasurementKind::distance,
       fmt::format("the distance from {} to {}, after which the scale is known to "
                   "{:.2g} %",
-                  words_of(tape->distance.from, indices),
-                  words_of(tape->distance.to, indices),
+                  words_of(tape->distance.from, indices), words_of(tape->distance.to, indices),
                   100.0 * tape->sigma),
-      "",
-      std::nullopt,
-      tape->distance.sigma_mm};
+      "", std::nullopt, tape->distance.sigma_mm};
   distance.from = end_of(tape->distance.from, indices);
   distance.to = {end_of(tape->distance.to, indices)};
   // This distance does not discriminate between causes.
   const Decision& decision = a.decision;
-  distance.raises_probability_to =
-      !list.empty()              ? list.back().raises_probability_to
-      : decision.listed.empty() ? std::min(1.0, decision.nothing + decision.outliers)
-                                : decision.marginal.front().probability;
+  distance.raises_probability_to = !list.empty() ? list.back().raises_probability_to
+                                   : decision.listed.empty()
+                                       ? std::min(1.0, decision.nothing + decision.outliers)
+                                       : decision.marginal.front().probability;
   list.push_back(std::move(distance));
   return list;
 }

@@ -15,7 +15,7 @@ namespace {
 /// The most informative regressor of each cause: the longest, and the nearest to the data among
 /// those of a cause with places.
 std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
-                                                        const MarginalisedSystem& marginalised) {
+                                                     const MarginalisedSystem& marginalised) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
@@ -51,8 +51,7 @@ struct FreeModel {
   std::size_t marginalised = 0;
 };
 std::optional<FreeModel> model_with(const RegressorSystem& system,
-                                    const ModelComparison& comparison,
-                                    const CauseId& whole,
+                                    const ModelComparison& comparison, const CauseId& whole,
                                     const CauseId& free) {
   const auto regressor = [&](int k) -> const Regressor& { return system.regressor(k); };
   for (const CandidateModel& model : comparison.models) {
@@ -76,30 +75,27 @@ std::optional<FreeModel> model_with(const RegressorSystem& system,
 }
 
 /// Within the noise, the fitted size of `free` is a whole number of `whole`.
-bool is_whole(const RegressorSystem& system,
-              const ModelComparison& comparison,
-              const CauseId& whole,
-              const CauseId& free) {
+bool is_whole(const RegressorSystem& system, const ModelComparison& comparison,
+              const CauseId& whole, const CauseId& free) {
   constexpr double kSigmas = 3.0;  // 1 in 370
   const auto model = model_with(system, comparison, whole, free);
   if (!model) return false;
-  const Estimate found = estimate(
-      system, comparison.marginalised_systems[model->marginalised], model->regressors, -1);
+  const Estimate found =
+      estimate(system, comparison.marginalised_systems[model->marginalised], model->regressors, -1);
   const Eigen::Index at = found.position(model->free);
   const Eigen::VectorXd own = system.g.col(model->free);
   const Regressor& of_free = system.regressor(model->free);
   for (const int k : system.regressors_of(whole)) {
     if (system.regressor(k).values.back() != of_free.values.back()) continue;
     const double asked = own.dot(Eigen::VectorXd(system.g.col(k))) / own.squaredNorm();
-    if (std::abs(found.coefficient(at) - asked) <= kSigmas * found.coefficient_sigma(at)) return true;
+    if (std::abs(found.coefficient(at) - asked) <= kSigmas * found.coefficient_sigma(at))
+      return true;
   }
   return false;
 }
 
-bool one_class(const RegressorSystem& system,
-               const ModelComparison& comparison,
-               const Representative& a,
-               const Representative& b) {
+bool one_class(const RegressorSystem& system, const ModelComparison& comparison,
+               const Representative& a, const Representative& b) {
   if (collinearity_of(a.free, b.free) < kOneClass) return false;
   if (!a.fixed && !b.fixed) return true;
   // A whole link is large: if it needs an implausible chain zero, it is distinguished.
@@ -111,8 +107,7 @@ bool one_class(const RegressorSystem& system,
 
 /// A whole number and an arbitrary amount, the likelier first: the whole number has no free size
 /// and so leads if the amount fits it.
-void put_likelier_first(const RegressorSystem& system,
-                        const ModelComparison& comparison,
+void put_likelier_first(const RegressorSystem& system, const ModelComparison& comparison,
                         CauseClass& members) {
   const auto weight_of = [&](const CauseId& cause) {
     double sum = kMinusInfinity;
@@ -151,13 +146,11 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   std::vector<Representative> first;
   Flags mixed;  // whole numbers and any amounts
   for (const auto& [cause, column] : best_regressors(system, marginalised)) {
-    Representative own{visible(marginalised.kept(system.g.col(column))),
-                       marginalised.g.col(column),
-                       cause,
-                       system.regressor(column).fixed};
+    Representative own{visible(marginalised.kept(system.g.col(column))), marginalised.g.col(column),
+                       cause, system.regressor(column).fixed};
     const double whole = own.free.norm();
-    linear::add_product(
-        own.free, -1.0, basis, linear::product(linear::transposed(basis), own.free));
+    linear::add_product(own.free, -1.0, basis,
+                        linear::product(linear::transposed(basis), own.free));
     // If the settings absorb a signature, only rounding would be compared.
     const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();

@@ -70,8 +70,7 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
     for (std::size_t k = 0; k < before.size(); ++k) {
       if (after[k].rejected) continue;
       squares.push_back({before[k].left_out_mm * before[k].left_out_mm,
-                         after[k].left_out_mm * after[k].left_out_mm,
-                         squares.size()});
+                         after[k].left_out_mm * after[k].left_out_mm, squares.size()});
     }
   }
   return squares;
@@ -132,9 +131,7 @@ const ParameterEstimate* unsure_place(const Cause& cause) {
 }
 
 /// A share of the cause, and the distance of its place from the likeliest.
-model::AppliedEffect applied_at(const Cause& cause,
-                                const ParameterEstimate& place,
-                                double off,
+model::AppliedEffect applied_at(const Cause& cause, const ParameterEstimate& place, double off,
                                 double share) {
   const EffectParameter& bounds = *place_parameter(*cause.cause.effect);
   const EffectParameter& size = cause.cause.effect->parameters.front();
@@ -242,8 +239,7 @@ double least_known_size(const std::vector<Cause>& causes) {
 
 /// A map for each set of causes that may act on the readings instead; empty if the fit fails.
 std::vector<std::optional<CompensationMap>> other_maps(
-    const Measured& measured,
-    const JointFitOptions& options,
+    const Measured& measured, const JointFitOptions& options,
     const std::vector<std::vector<ActingCause>>& sets) {
   std::vector<std::optional<CompensationMap>> maps(sets.size());
   for_each_index(sets.size(), [&](std::size_t k) {
@@ -271,10 +267,8 @@ std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) 
 }
 
 /// (2)
-void add_open_causes(const Measured& measured,
-                     const CausesFitOptions& options,
-                     const CompensationMap& plain,
-                     CausesFit& result) {
+void add_open_causes(const Measured& measured, const CausesFitOptions& options,
+                     const CompensationMap& plain, CausesFit& result) {
   constexpr double kLeastFactor = 1.05;
   const CompensationMap map = result.fit.map;
   const std::vector<Cause>& built_on = result.built_on;
@@ -359,10 +353,9 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
     return noted({*std::move(plain), {}, {}, std::nullopt, 0.0, std::move(why)});
   };
   if (const std::size_t count = readings_of(measured); count > kMostWeighed)
-    return without_causes(
-        joint_fit(measured, options.fit),
-        fmt::format(
-            "{} readings are too many for the comparison (at most {})", count, kMostWeighed));
+    return without_causes(joint_fit(measured, options.fit),
+                          fmt::format("{} readings are too many for the comparison (at most {})",
+                                      count, kMostWeighed));
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
@@ -370,14 +363,11 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   NamingAndPlainFit made = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
   if (!made.naming) return without_causes(std::move(made.plain), made.naming.error().sentence());
   if (!made.plain) return tl::unexpected(made.plain.error());
-  return fit_on_causes(measured, *made.naming, *std::move(made.plain), options, [&] {
-    return naming_improves_the_map(made.naming->analysis);
-  });
+  return fit_on_causes(measured, *made.naming, *std::move(made.plain), options,
+                       [&] { return naming_improves_the_map(made.naming->analysis); });
 }
 
-CausesFit fit_on_causes(const Measured& measured,
-                        const Naming& naming,
-                        JointFit plain,
+CausesFit fit_on_causes(const Measured& measured, const Naming& naming, JointFit plain,
                         const CausesFitOptions& options,
                         const std::function<bool()>& naming_helps) {
   CausesFit result{std::move(plain), {}, {}, std::nullopt, 0.0, {}};

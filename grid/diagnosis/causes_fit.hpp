@@ -95,11 +95,8 @@ struct CausesFit {
     const Measured& measured, const CausesFitOptions& options = {});
 /// The same, given the named causes and the plain map. `naming_helps` is asked at most once:
 /// whether naming_improves_the_map().
-CausesFit fit_on_causes(const Measured& measured,
-                        const Naming& naming,
-                        JointFit plain,
-                        const CausesFitOptions& options,
-                        const std::function<bool()>& naming_helps);
+CausesFit fit_on_causes(const Measured& measured, const Naming& naming, JointFit plain,
+                        const CausesFitOptions& options, const std::function<bool()>& naming_helps);
 
 /// Sentences for the owner: what the map is built on and what is offered.
 std::vector<std::string> in_words(const CausesFit& fit);

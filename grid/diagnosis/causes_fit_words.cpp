@@ -10,9 +10,10 @@ namespace {
 std::string offered_words(const OfferedCause& offered, const std::string& cause) {
   switch (offered.reason) {
     case OfferedCause::Reason::not_sure:
-      return fmt::format("Possible cause: {}. It is not certain enough to be used in the map; "
-                         "chaintrue diagnose proposes what to measure next.",
-                         cause);
+      return fmt::format(
+          "Possible cause: {}. It is not certain enough to be used in the map; "
+          "chaintrue diagnose proposes what to measure next.",
+          cause);
     case OfferedCause::Reason::may_be_paper:
       return fmt::format(
           "Probable cause: {}. The tape used to place the marks may be wrong instead; marks alone "
@@ -20,9 +21,10 @@ std::string offered_words(const OfferedCause& offered, const std::string& cause)
           "know that it is the chain, use --accept-class.",
           cause);
     case OfferedCause::Reason::is_paper:
-      return fmt::format("Probable cause: {}. The marks themselves are wrong: correct them, or "
-                         "place them again.",
-                         cause);
+      return fmt::format(
+          "Probable cause: {}. The marks themselves are wrong: correct them, or "
+          "place them again.",
+          cause);
     case OfferedCause::Reason::gains_nothing:
       break;
   }
@@ -36,40 +38,35 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   const auto worded = [](const Cause& cause) {
     std::string same;
     for (const SameCause& other : cause.same_as) {
-      same += fmt::format(", or else {}: {}",
-                          sized(other.cause, {}),
+      same += fmt::format(", or else {}: {}", sized(other.cause, {}),
                           in_workshop_units(other.cause, other.parameters.front()));
     }
-    return fmt::format("{} ({}; {}{})",
-                       sized(cause.cause, {}),
+    return fmt::format("{} ({}; {}{})", sized(cause.cause, {}),
                        in_workshop_units(cause.cause, cause.parameters.front()),
-                       percent(cause.probability),
-                       same);
+                       percent(cause.probability), same);
   };
   if (!fit.not_weighed.empty())
     sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");
   if (!fit.built_on.empty()) {
     std::vector<std::string> parts;
     for (const Cause& cause : fit.built_on) parts.push_back(worded(cause));
-    sentences.push_back(
-        fmt::format("Found and used in the map: {}. In parts of the bed left out of the fit the "
-                    "map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
-                    joined(parts, "and"),
-                    fit.held_out->with_causes_mm,
-                    fit.built_on.size() == 1 ? "this cause" : "these causes",
-                    fit.held_out->plain_mm));
+    sentences.push_back(fmt::format(
+        "Found and used in the map: {}. In parts of the bed left out of the fit the "
+        "map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
+        joined(parts, "and"), fit.held_out->with_causes_mm,
+        fit.built_on.size() == 1 ? "this cause" : "these causes", fit.held_out->plain_mm));
   }
   if (sentences.empty() && fit.offered.empty())
     sentences.emplace_back("No single cause stands out, and the map needs none.");
   for (const OfferedCause& offered : fit.offered)
     sentences.push_back(offered_words(offered, worded(offered.cause)));
   if (fit.left_open_mm > 0.0) {
-    sentences.push_back(
-        fmt::format("{}. This contributes {:.2f} mm rms to the expected error.",
-                    fit.offered.empty() ? "The sizes and places of the causes are not known exactly"
+    sentences.push_back(fmt::format("{}. This contributes {:.2f} mm rms to the expected error.",
+                                    fit.offered.empty()
+                                        ? "The sizes and places of the causes are not known exactly"
                                         : "Causes that were found but are not in the map may "
                                           "still act",
-                    fit.left_open_mm));
+                                    fit.left_open_mm));
   }
   return sentences;
 }

@@ -45,9 +45,7 @@ std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law, const Ana
   std::vector<CauseGivenLaw> changed;
   for (Cause& cause : causes_found(given_law)) {
     if (holds(without_law, cause.cause)) continue;
-    changed.push_back({cause.cause,
-                       cause.probability,
-                       probability_of(without_law, cause.cause),
+    changed.push_back({cause.cause, cause.probability, probability_of(without_law, cause.cause),
                        std::move(cause.parameters)});
     for (SameCause& same : cause.same_as) changed.back().same_as.push_back(same.cause);
   }
@@ -86,8 +84,7 @@ void take_names_back(const Analysis& given_law, Analysis& a) {
   stable_sort(a.decision.marginal, descending(&ClassProbability::probability));
 }
 
-std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
-                                          const AnalysisRules& rules,
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, const AnalysisRules& rules,
                                           Analysis& a) {
   const auto rows = rows_of_claimed_law(a, laws);
   if (!rows) return {};

@@ -29,8 +29,7 @@ std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law, const Ana
 void take_names_back(const Analysis& given_law, Analysis& analysis);
 
 /// The changes of names once a claimed law is known; causes that are no longer named are withdrawn.
-std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
-                                          const AnalysisRules& rules,
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, const AnalysisRules& rules,
                                           Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -27,10 +27,8 @@ Eigen::MatrixXd CovarianceRoot::explained() const {
   return linear::scaled_columns(basis_, (-change(-1.0)).cwiseSqrt());
 }
 
-Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row,
-                                                Eigen::Index rows,
-                                                Eigen::Index column,
-                                                Eigen::Index columns) const {
+Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row, Eigen::Index rows,
+                                                Eigen::Index column, Eigen::Index columns) const {
   Eigen::MatrixXd result = linear::product(
       basis_.middleRows(row, rows),
       linear::transposed(linear::scaled_columns(basis_.middleRows(column, columns), change(-1.0))));

@@ -39,9 +39,7 @@ class CovarianceRoot {
   /// T with V^-1 = 1 - T T'.
   Eigen::MatrixXd explained() const;
   /// The block of V^(-1) of this size that starts at these indices.
-  Eigen::MatrixXd precision_block(Eigen::Index row,
-                                  Eigen::Index rows,
-                                  Eigen::Index column,
+  Eigen::MatrixXd precision_block(Eigen::Index row, Eigen::Index rows, Eigen::Index column,
                                   Eigen::Index columns) const;
   double log_det() const { return log_variance_.sum(); }
 

@@ -20,9 +20,7 @@ struct Grouped {
 
 class Decider {
  public:
-  Decider(const RegressorSystem& system,
-          const ModelComparison& comparison,
-          const Flags& excluded,
+  Decider(const RegressorSystem& system, const ModelComparison& comparison, const Flags& excluded,
           std::vector<CauseClass> classes)
       : system_(system), comparison_(comparison), excluded_(excluded) {
     result_.classes = std::move(classes);
@@ -67,12 +65,8 @@ class Decider {
       }
     }
     // Rounding of thousands of addends.
-    for (double* const sum : {&result_.caused,
-                              &result_.discrepancy,
-                              &result_.discrepancy_alone,
-                              &result_.outliers,
-                              &result_.noise,
-                              &result_.nothing}) {
+    for (double* const sum : {&result_.caused, &result_.discrepancy, &result_.discrepancy_alone,
+                              &result_.outliers, &result_.noise, &result_.nothing}) {
       *sum = std::min(*sum, 1.0);
     }
   }
@@ -286,11 +280,8 @@ class Decider {
 
 }  // namespace
 
-Decision decide(const RegressorSystem& system,
-                const ModelComparison& comparison,
-                const Flags& excluded,
-                bool detected,
-                std::vector<CauseClass> classes) {
+Decision decide(const RegressorSystem& system, const ModelComparison& comparison,
+                const Flags& excluded, bool detected, std::vector<CauseClass> classes) {
   return Decider(system, comparison, excluded, std::move(classes)).run(detected);
 }
 

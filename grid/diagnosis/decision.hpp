@@ -53,11 +53,8 @@ struct Decision {
 
 /// `detected`: the strongest effect exceeds what noise produces (family-wise). Only the rejected
 /// points of the comparison's marginalised systems are used.
-Decision decide(const RegressorSystem& system,
-                const ModelComparison& comparison,
-                const Flags& excluded,
-                bool detected,
-                std::vector<CauseClass> classes);
+Decision decide(const RegressorSystem& system, const ModelComparison& comparison,
+                const Flags& excluded, bool detected, std::vector<CauseClass> classes);
 
 /// Names no cause: what remains is an unexplained pattern or nothing. Probabilities are kept.
 void withdraw_names(const ModelComparison& comparison, Decision& decision);

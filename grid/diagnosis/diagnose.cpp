@@ -25,13 +25,9 @@
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(Verdict verdict) {
-  constexpr std::string_view kNames[] = {"named",
-                                         "named_set",
-                                         "several_causes",
-                                         "unknown_pattern",
-                                         "noise_larger_than_stated",
-                                         "bad_points",
-                                         "nothing_found"};
+  constexpr std::string_view kNames[] = {
+      "named",      "named_set",    "several_causes", "unknown_pattern", "noise_larger_than_stated",
+      "bad_points", "nothing_found"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -60,11 +56,11 @@ RegressorSet others_than(const Analysis& a, const CauseId& cause) {
 
 /// Whether the readings are more probable without it than with its values in the file.
 bool is_refuted(const Analysis& a, const CauseId& cause) {
-  const auto g =
-      signature(a.session, a.state, a.system, {cause, model::effects::nominal_values(*cause.effect)});
+  const auto g = signature(a.session, a.state, a.system,
+                           {cause, model::effects::nominal_values(*cause.effect)});
   if (!g) return false;
-  const LawModel model(
-      a, marginalised_system(a), others_than(a, cause), a.decision.best_discrepancy);
+  const LawModel model(a, marginalised_system(a), others_than(a, cause),
+                       a.decision.best_discrepancy);
   const double odds = kLawClaimed / (1.0 - kLawClaimed);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(g->size());
   return model.log_density(none) - model.log_density(*g) > std::log(odds);
@@ -128,8 +124,8 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
     }
     const std::string words = estimation::words_of(zeros);
     if (!words.empty())
-      d.notes.push_back(fmt::format(
-          "{}: the chains' zeros differ from those in {}: {}.", names[k], names.front(), words));
+      d.notes.push_back(fmt::format("{}: the chains' zeros differ from those in {}: {}.", names[k],
+                                    names.front(), words));
   }
 }
 
@@ -152,16 +148,12 @@ void state_input(const Measured& measured, Diagnosis& d) {
 }
 
 /// The error today and the noise of the readings are those of the map that `fit` makes of them.
-void take_from_map(const Measured& measured,
-                   const Naming& naming,
-                   JointFit plain,
-                   const DiagnosisOptions& options,
-                   Diagnosis& d) {
+void take_from_map(const Measured& measured, const Naming& naming, JointFit plain,
+                   const DiagnosisOptions& options, Diagnosis& d) {
   CausesFitOptions own;
   own.accept_class = options.accept_class;
-  const CausesFit fit = fit_on_causes(measured, naming, std::move(plain), own, [&] {
-    return naming_improves_the_map(d.improvement);
-  });
+  const CausesFit fit = fit_on_causes(measured, naming, std::move(plain), own,
+                                      [&] { return naming_improves_the_map(d.improvement); });
   d.tool_today = error_in_use(fit.fit.map);
   if (d.improvement && d.observations == Observations::points)
     d.improvement->noise_floor_mm = noise_at_tool_mm(fit.fit.map);

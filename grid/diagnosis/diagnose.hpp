@@ -34,8 +34,7 @@ namespace chaintrue::grid::diagnosis {
 /// fit_belts() fails. `indices`: positions of the points in their file; the answer uses the file's
 /// numbers.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
-    const MeasuredBelts& belts,
-    const DiagnosisOptions& options = {},
+    const MeasuredBelts& belts, const DiagnosisOptions& options = {},
     const PointIndices& indices = {});
 
 /// A V-plotter, from what was measured on its test drawing. The order of the lines is not known.

@@ -33,8 +33,7 @@ std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
   std::vector<DrawnSetting> settings;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto at = as_index(k);
-    DrawnSetting own{std::string(parameters[k].name),
-                     a.session.stated_value(at),
+    DrawnSetting own{std::string(parameters[k].name), a.session.stated_value(at),
                      a.system.setting(at) + a.estimate.setting_change(at),
                      std::sqrt(a.estimate.setting_covariance(at, at))};
     own.off = std::abs(own.found - own.set) > kOffSigmas * own.sigma;
@@ -66,8 +65,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
   tell(options.progress, kComparingDrawing);
   auto readings = drawn_measures_of(drawing).value();
   ObservationSet session = estimation::observation_set(
-      {},
-      {std::make_shared<const observation::DrawnMeasures>(std::move(readings))},
+      {}, {std::make_shared<const observation::DrawnMeasures>(std::move(readings))},
       model::make_plotter_mechanism(drawing.machine));
   session.fewest_units = kFewestMeasures;
   auto analysis = analyse(std::move(session), options);
@@ -78,8 +76,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
   d.grid_name = drawing.name;
   take_findings(a, d);
   d.outliers = outliers_found(a);
-  d.drawing = DrawingFindings{
-      drawing.machine.name, drawn_settings(a), drawn_values(a, drawing)};
+  d.drawing = DrawingFindings{drawing.machine.name, drawn_settings(a), drawn_values(a, drawing)};
   put_into_words(a, d);
   return d;
 }

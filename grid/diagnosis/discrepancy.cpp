@@ -11,8 +11,7 @@ namespace {
 constexpr double kSledMm = 230.0;
 
 /// k of each length at two places.
-double between_lengths(const DiscrepancyKernel& kernel,
-                       const SystemPlace& a,
+double between_lengths(const DiscrepancyKernel& kernel, const SystemPlace& a,
                        const SystemPlace& b) {
   double sum = 0.0;
   for (const DiscrepancyField& field : kernel.fields)
@@ -43,11 +42,8 @@ std::vector<std::vector<RowsAtPlace>> rows_by_place(const RegressorSystem& syste
 }
 
 /// K of these rows and those, which are the same if `symmetric`.
-Eigen::MatrixXd between(const DiscrepancyKernel& kernel,
-                        const RegressorSystem& to,
-                        const KeptRows& rows,
-                        const RegressorSystem& from,
-                        const KeptRows& columns,
+Eigen::MatrixXd between(const DiscrepancyKernel& kernel, const RegressorSystem& to,
+                        const KeptRows& rows, const RegressorSystem& from, const KeptRows& columns,
                         bool symmetric) {
   const auto to_places = rows_by_place(to, rows, kernel);
   const auto from_places = rows_by_place(from, columns, kernel);
@@ -58,15 +54,17 @@ Eigen::MatrixXd between(const DiscrepancyKernel& kernel,
       const SystemPlace& here = to.places[p];
       const SystemPlace& there = from.places[q];
       const double k = kernel.of_lengths() ? between_lengths(kernel, here, there) : 1.0;
-      const Eigen::Matrix2d block = kernel.of_lengths() ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
-                                                        : discrepancy_block(kernel, here, there);
+      const Eigen::Matrix2d block = kernel.of_lengths()
+                                        ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
+                                        : discrepancy_block(kernel, here, there);
       for (const RowsAtPlace& a : to_places[p]) {
         decltype(a.by) left = k * a.by;
         if (!kernel.of_lengths()) left = a.by.lazyProduct(block);
         for (const RowsAtPlace& b : from_places[q]) {
           const decltype(a.by) part = left.lazyProduct(b.by.transpose());
           c.block(a.at, b.at, part.rows(), part.cols()) += part;
-          if (symmetric && p != q) c.block(b.at, a.at, part.cols(), part.rows()) += part.transpose();
+          if (symmetric && p != q)
+            c.block(b.at, a.at, part.cols(), part.rows()) += part.transpose();
         }
       }
     }
@@ -92,8 +90,7 @@ std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
 
 }  // namespace
 
-FieldArgument field_argument(const DiscrepancyField& field,
-                             const SystemPlace& place,
+FieldArgument field_argument(const DiscrepancyField& field, const SystemPlace& place,
                              Eigen::Index component) {
   switch (field.of) {
     case Coordinate::place:
@@ -109,8 +106,7 @@ FieldArgument field_argument(const DiscrepancyField& field,
   }
 }
 
-double field_covariance(const DiscrepancyField& field,
-                        const FieldArgument& a,
+double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
                         const FieldArgument& b) {
   const double square = std::pow(a.first - b.first, 2) + std::pow(a.second - b.second, 2);
   return a.weight * b.weight * std::exp(-0.5 * square / (field.length * field.length));
@@ -127,8 +123,7 @@ Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& pl
                                            : place.state.by_mark;
 }
 
-Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
-                                  const SystemPlace& a,
+Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
                                   const SystemPlace& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const DiscrepancyField& field : kernel.fields) {
@@ -150,15 +145,12 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
   return sum / as_double(kernel.fields.size());
 }
 
-Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
-                                       const RegressorSystem& from,
-                                       const KeptRows& kept,
-                                       const DiscrepancyKernel& kernel) {
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to, const RegressorSystem& from,
+                                       const KeptRows& kept, const DiscrepancyKernel& kernel) {
   return between(kernel, to, KeptRows::all(to), from, kept, false);
 }
 
-Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
-                                       const KeptRows& kept,
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system, const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
   return between(kernel, system, kept, system, kept, true);
 }
@@ -184,10 +176,8 @@ Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covar
   return factor.leftCols(rank);
 }
 
-FieldFactor field_factor(const RegressorSystem& system,
-                         const KeptRows& kept,
-                         const DiscrepancyField& field,
-                         double least) {
+FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
+                         const DiscrepancyField& field, double least) {
   const std::vector<FieldArgument> arguments = arguments_of(field, system.places);
   const Eigen::MatrixXd factor =
       low_rank(std::ssize(arguments), least, [&](Eigen::Index i, Eigen::Index j) {
@@ -200,8 +190,8 @@ FieldFactor field_factor(const RegressorSystem& system,
   for (const KeptRows::Unit& own : kept.units()) {
     const SystemUnit& unit = system.units[own.unit];
     for (const observation::PlaceColumns& place : unit.places) {
-      const Eigen::MatrixXd entry = KeptRows::of_unit(
-          own, place.by_chain * field_entry(field, system.places[place.place]));
+      const Eigen::MatrixXd entry =
+          KeptRows::of_unit(own, place.by_chain * field_entry(field, system.places[place.place]));
       const auto at = as_index(place.place);
       for (Eigen::Index k = 0; k < entry.rows(); ++k) {
         result.first.row(own.at + k) += entry(k, 0) * factor.row(at);
@@ -217,14 +207,14 @@ std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field) {
   return {Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY()};
 }
 
-Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system,
-                                   const KeptRows& kept,
+Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
                                    const DiscrepancyKernel& kernel) {
   if (kernel.of_lengths()) {
     const Eigen::MatrixXd k = discrepancy_covariance(system, kept, kernel);
     const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
     if (!(most > 0.0)) return Eigen::MatrixXd(k.rows(), 0);
-    return low_rank(k.rows(), kFieldRounding * most, [&](Eigen::Index i, Eigen::Index j) { return k(i, j); });
+    return low_rank(k.rows(), kFieldRounding * most,
+                    [&](Eigen::Index i, Eigen::Index j) { return k(i, j); });
   }
   std::vector<Eigen::MatrixXd> parts;
   Eigen::Index rank = 0;

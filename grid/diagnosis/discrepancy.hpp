@@ -96,13 +96,11 @@ struct FieldArgument {
   double second = 0.0;  ///< of the place: y
   double weight = 1.0;  ///< of the field there, with its sign
 };
-FieldArgument field_argument(const DiscrepancyField& field,
-                             const SystemPlace& place,
+FieldArgument field_argument(const DiscrepancyField& field, const SystemPlace& place,
                              Eigen::Index component);
 
 /// For the field's values at two arguments.
-double field_covariance(const DiscrepancyField& field,
-                        const FieldArgument& a,
+double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
                         const FieldArgument& b);
 
 /// How a field enters: d of its direction; (1, 1) of the border, where both components are one
@@ -113,25 +111,20 @@ std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
 Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
 
 /// Covariance of the two chains at two places, for s = 1.
-Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
-                                  const SystemPlace& a,
+Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
                                   const SystemPlace& b);
 
 /// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
 /// that see no place stay 0.
-Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
-                                       const RegressorSystem& from,
-                                       const KeptRows& kept,
-                                       const DiscrepancyKernel& kernel);
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to, const RegressorSystem& from,
+                                       const KeptRows& kept, const DiscrepancyKernel& kernel);
 
 /// Covariance of these whitened rows, for s = 1.
-Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
-                                       const KeptRows& kept,
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system, const KeptRows& kept,
                                        const DiscrepancyKernel& kernel);
 
 /// F with F F' = that covariance up to rounding: kept x r. A smooth field over a bed has few degrees of freedom.
-Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system,
-                                   const KeptRows& kept,
+Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
                                    const DiscrepancyKernel& kernel);
 
 /// F with F F' ~= a covariance of n, n x r, what is left of its diagonal below `least`, by a pivoted Cholesky
@@ -145,10 +138,8 @@ Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covar
 struct FieldFactor {
   Eigen::MatrixXd first, second;  ///< kept x r
 };
-FieldFactor field_factor(const RegressorSystem& system,
-                         const KeptRows& kept,
-                         const DiscrepancyField& field,
-                         double least);
+FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
+                         const DiscrepancyField& field, double least);
 
 /// The mixes of the two components that a field enters by: its direction, or each of them alone.
 std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field);

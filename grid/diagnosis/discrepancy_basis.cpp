@@ -24,15 +24,14 @@ Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
   const Eigen::MatrixXd k = marginalised.root.solve(half.transpose());
   const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
   if (!(most > 0.0)) return Eigen::MatrixXd(k.rows(), 0);
-  return low_rank(k.rows(), kLeftOfField * most, [&](Eigen::Index i, Eigen::Index j) {
-    return k(i, j);
-  });
+  return low_rank(k.rows(), kLeftOfField * most,
+                  [&](Eigen::Index i, Eigen::Index j) { return k(i, j); });
 }
 
 /// One field's inner products, by component.
 struct Products {
-  DiscrepancyField field;  ///< without its direction
-  FieldFactor parts;       ///< R^-1 times its effect on the kept rows
+  DiscrepancyField field;                  ///< without its direction
+  FieldFactor parts;                       ///< R^-1 times its effect on the kept rows
   Eigen::MatrixXd gram11, gram12, gram22;  ///< r x r
   /// With the residual and the columns of some normal equations, r x (1 + columns) each.
   std::map<const NormalEquations*, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> with;
@@ -76,14 +75,18 @@ class DiscrepancyBasis::Fields {
     auto* known = find_where(all_, [&](const Products& p) { return p.field == field; });
     if (known != nullptr) return *known;
     const FieldFactor parts = field_factor(system_, marginalised_.kept, field, kLeftOfField);
-    return add(field, {marginalised_.root.solve(parts.first), marginalised_.root.solve(parts.second)});
+    return add(field,
+               {marginalised_.root.solve(parts.first), marginalised_.root.solve(parts.second)});
   }
 
   /// Inner products of a block with the residual and these columns.
   Eigen::MatrixXd with(const Block& block, const NormalEquations& plain) {
     auto known = block.products->with.find(&plain);
     if (known == block.products->with.end())
-      known = block.products->with.emplace(&plain, products_with(*block.products, residual_and(marginalised_, plain.columns))).first;
+      known = block.products->with
+                  .emplace(&plain, products_with(*block.products,
+                                                 residual_and(marginalised_, plain.columns)))
+                  .first;
     const auto& [first, second] = known->second;
     return block.c * first + block.s * second;
   }
@@ -92,7 +95,8 @@ class DiscrepancyBasis::Fields {
   void relate_all(const NormalEquations& plain) {
     const Eigen::MatrixXd e = residual_and(marginalised_, plain.columns);
     for (Products& own : all_) own.with.try_emplace(&plain);
-    for_each_index(all_.size(), [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
+    for_each_index(all_.size(),
+                   [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
   }
 
   void forget() {
@@ -149,8 +153,7 @@ struct DiscrepancyBasis::Kernel {
   Eigen::MatrixXd turned;  ///< Q'B', r x N, if prepared
 };
 
-DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
-                                   MarginalisedSystem& marginalised,
+DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSystem& marginalised,
                                    const Indices& kernels)
     : marginalised_(marginalised),
       fields_(std::make_unique<Fields>(system, marginalised)),
@@ -194,7 +197,7 @@ void DiscrepancyBasis::relate(const NormalEquations& plain) { fields_->relate_al
 void DiscrepancyBasis::forget() { fields_->forget(); }
 
 DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
-                                                  const NormalEquations& plain) {
+                                                      const NormalEquations& plain) {
   const Kernel& own = kernels_.at(kernel);
   GivenKernel result;
   result.plain_ = &plain;
@@ -247,7 +250,8 @@ void DiscrepancyBasis::GivenKernel::apply(const Half& half, Eigen::MatrixXd& lin
   }
 }
 
-DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(double strength) const {
+DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(
+    double strength) const {
   const Half own = half(strength);
   Eigen::MatrixXd lines = rotated_;
   apply(own, lines);

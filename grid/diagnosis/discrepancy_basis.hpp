@@ -29,8 +29,7 @@ class DiscrepancyBasis {
  public:
   /// For these kernels (numbers in the system's family). Notes their traces in the marginalised
   /// system. Both references must outlive this.
-  DiscrepancyBasis(const RegressorSystem& system,
-                   MarginalisedSystem& marginalised,
+  DiscrepancyBasis(const RegressorSystem& system, MarginalisedSystem& marginalised,
                    const Indices& kernels);
   ~DiscrepancyBasis();
 

@@ -123,12 +123,10 @@ const DiscrepancyFamily& length_discrepancies(bool ordered) {
     if (visits > 0.0) own.fields.push_back({Coordinate::visit, visits, FieldEntry::lengths});
     return own;
   };
-  static const DiscrepancyFamily kOrdered{{kernel(150.0, 0.0, 0.2),
-                                           kernel(300.0, 0.0, 0.2),
-                                           kernel(600.0, 0.0, 0.2),
-                                           kernel(300.0, 6.0, 0.2),
-                                           kernel(600.0, 6.0, 0.2)},
-                                          kStrengths};
+  static const DiscrepancyFamily kOrdered{
+      {kernel(150.0, 0.0, 0.2), kernel(300.0, 0.0, 0.2), kernel(600.0, 0.0, 0.2),
+       kernel(300.0, 6.0, 0.2), kernel(600.0, 6.0, 0.2)},
+      kStrengths};
   static const DiscrepancyFamily kUnordered{
       {kernel(150.0, 0.0, 0.2), kernel(300.0, 0.0, 0.4), kernel(600.0, 0.0, 0.4)}, kStrengths};
   return ordered ? kOrdered : kUnordered;

@@ -24,8 +24,7 @@ using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system,
 /// The models that may lead without some points: the best ones and, in each of their marginalised
 /// systems, no cause and every cause alone at its best place.
 std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
-    const RegressorSystem& system,
-    const ModelComparison& comparison,
+    const RegressorSystem& system, const ModelComparison& comparison,
     const FollowedModels& limits) {
   std::map<FactorisationKey, double> share;
   for (const CandidateModel& model : comparison.models) {
@@ -113,8 +112,7 @@ void take_inner(const LeaveOut::Kept& kept, NormalEquations& equations) {
 
 }  // namespace
 
-Downdating::Downdating(const RegressorSystem& system,
-                       const ModelComparison& comparison,
+Downdating::Downdating(const RegressorSystem& system, const ModelComparison& comparison,
                        const FollowedModels& limits)
     : system_(system),
       comparison_(comparison),
@@ -130,8 +128,7 @@ Downdating::Downdating(const RegressorSystem& system,
   for (auto& own : made) factorisations_.push_back(*std::move(own));
 }
 
-Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
-                                                       int discrepancy,
+Downdating::Factorisation Downdating::factorisation_of(std::size_t number, int discrepancy,
                                                        std::vector<CandidateModel> models) const {
   const MarginalisedSystem& marginalised = comparison_.marginalised_systems[number];
   RegressorSet columns;
@@ -146,8 +143,8 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
       {},
       std::move(models)};
   NormalEquations& equations = factorised.equations;
-  equations.prior_square = prior_squares(
-      system_.regressors, columns, e.rightCols(std::ssize(columns)).colwise().squaredNorm());
+  equations.prior_square = prior_squares(system_.regressors, columns,
+                                         e.rightCols(std::ssize(columns)).colwise().squaredNorm());
   equations.columns = std::move(columns);
   take_inner(factorised.rows.without({}), equations);
   const NoiseDensity noise(system_.noise_dof, e.rows());
@@ -184,9 +181,9 @@ Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs cou
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index rows = factorised.rows.rows() - std::ssize(out);
     const NoiseDensity noise(system_.noise_dof, rows);
-    const double power = count_as == CountAs::all
-                             ? as_double(factorised.rows.rows()) / as_double(std::max<Eigen::Index>(rows, 1))
-                             : 1.0;
+    const double power = count_as == CountAs::all ? as_double(factorised.rows.rows()) /
+                                                        as_double(std::max<Eigen::Index>(rows, 1))
+                                                  : 1.0;
     const double price =
         log_price_of_outliers(system_, with_units(system_, whole.outliers, units, false));
     // Marginalised systems that differ in the points left out alone are one.
@@ -194,8 +191,8 @@ Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs cou
         home_of(result.systems, with_units(system_, whole.outliers, units, true));
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
-      const auto [same, is_new] = known.try_emplace(
-          {home, factorised.discrepancy, model.regressors}, result.models.size());
+      const auto [same, is_new] =
+          known.try_emplace({home, factorised.discrepancy, model.regressors}, result.models.size());
       ModelWithout own{&model, home, same->second, {}, 0.0};
       if (is_new) {
         own.evidence = set_evidence(equations, system_.regressors, factorised.sets[k], noise);
@@ -217,16 +214,14 @@ Downdating::Without Downdating::without(const Indices& units) const {
   for (std::size_t k = 0; k < all.models.size(); ++k) {
     const ModelWithout& own = all.models[k];
     if (own.same != k || !std::isfinite(own.log_weight)) continue;
-    comparison.models.push_back({own.model->regressors,
-                                 own.model->discrepancy,
-                                 own.home,
-                                 own.log_weight,
-                                 own.evidence.larger_noise,
+    comparison.models.push_back({own.model->regressors, own.model->discrepancy, own.home,
+                                 own.log_weight, own.evidence.larger_noise,
                                  own.evidence.quadratic});
   }
   sort_by_weight(comparison);
   for (const auto& [score, marginalised] : all.strongest) {
-    if (marginalised == comparison.best().marginalised) result.score = std::max(result.score, score);
+    if (marginalised == comparison.best().marginalised)
+      result.score = std::max(result.score, score);
   }
   return result;
 }

@@ -38,8 +38,7 @@ enum class CountAs {
 class Downdating {
  public:
   /// System and comparison are kept by reference.
-  Downdating(const RegressorSystem& system,
-             const ModelComparison& comparison,
+  Downdating(const RegressorSystem& system, const ModelComparison& comparison,
              const FollowedModels& followed = {});
 
   struct Without {
@@ -86,8 +85,7 @@ class Downdating {
     std::vector<std::pair<double, std::size_t>> strongest;  ///< score, by system
   };
   AllWithout all_without(const Indices& units, CountAs count_as) const;
-  Factorisation factorisation_of(std::size_t marginalised,
-                                 int discrepancy,
+  Factorisation factorisation_of(std::size_t marginalised, int discrepancy,
                                  std::vector<CandidateModel> models) const;
   /// Inner products with these rows of the marginalised system gone.
   NormalEquations downdated_equations(const Factorisation& factorised, const Rows& out) const;

@@ -13,8 +13,8 @@
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(BudgetLine::What what) {
-  constexpr std::string_view kNames[] = {
-      "settings", "cause", "unexplained", "noise", "inseparable"};
+  constexpr std::string_view kNames[] = {"settings", "cause", "unexplained", "noise",
+                                         "inseparable"};
   return kNames[static_cast<std::size_t>(what)];
 }
 
@@ -81,10 +81,8 @@ std::optional<double> over_a_part(const std::vector<Corner>& corners, const At& 
   return most;
 }
 
-std::optional<double> part_of_cause(const Analysis& a,
-                                    const std::vector<Corner>& corners,
-                                    const Regressor& own,
-                                    double size) {
+std::optional<double> part_of_cause(const Analysis& a, const std::vector<Corner>& corners,
+                                    const Regressor& own, double size) {
   return over_a_part(corners, [&](const Corner& there) {
     auto g = signature(there.session, a.state, there.system, own);
     if (g) *g *= size;

@@ -14,9 +14,7 @@ struct Solution {
 };
 
 /// `settings`: the settings' expected change; the sizes' is zero.
-Solution solve(Unknowns unknowns,
-               const Eigen::VectorXd& settings,
-               Eigen::VectorXd data,
+Solution solve(Unknowns unknowns, const Eigen::VectorXd& settings, Eigen::VectorXd data,
                const LowRankNoise* noise) {
   Eigen::MatrixXd& design = unknowns.design;
   if (noise != nullptr) {
@@ -35,14 +33,12 @@ Solution solve(Unknowns unknowns,
 }
 
 /// From the residual rows. For the kept ones (1 + s^2 K)^-1 gives it: left - s^2 K w = w.
-void take_discrepancy_out(const RegressorSystem& system,
-                          const MarginalisedSystem& marginalised,
+void take_discrepancy_out(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                           Estimate& estimate) {
   if (estimate.discrepancy.kernel.of_lengths()) {
     const double square = estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm;
     linear::add_product(
-        estimate.left_given_discrepancy,
-        -square,
+        estimate.left_given_discrepancy, -square,
         discrepancy_covariance(system, system, marginalised.kept, estimate.discrepancy.kernel),
         estimate.discrepancy_weights);
     return;
@@ -71,8 +67,7 @@ Eigen::Index Estimate::position(int regressor) const {
   return std::find(regressors.begin(), regressors.end(), regressor) - regressors.begin();
 }
 
-Unknowns unknowns_of(const RegressorSystem& system,
-                     const MarginalisedSystem& marginalised,
+Unknowns unknowns_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                      const RegressorSet& free) {
   const Eigen::Index settings = system.setting.size();
   const Eigen::Index all = settings + std::ssize(free);
@@ -87,13 +82,9 @@ Unknowns unknowns_of(const RegressorSystem& system,
   return result;
 }
 
-Estimate estimate(const RegressorSystem& system,
-                  const MarginalisedSystem& marginalised,
-                  const RegressorSet& regressors,
-                  int discrepancy) {
-  return estimate(system,
-                  marginalised,
-                  regressors,
+Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                  const RegressorSet& regressors, int discrepancy) {
+  return estimate(system, marginalised, regressors,
                   discrepancy_noise(system, marginalised, discrepancy).get());
 }
 
@@ -106,10 +97,8 @@ std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem&
                        LowRankNoise(discrepancy_columns(system, marginalised, discrepancy))});
 }
 
-Estimate estimate(const RegressorSystem& system,
-                  const MarginalisedSystem& marginalised,
-                  const RegressorSet& regressors,
-                  const DiscrepancyNoise* noise) {
+Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                  const RegressorSet& regressors, const DiscrepancyNoise* noise) {
   Estimate result;
   result.regressors = regressors;
   const auto settings = system.setting.size();
@@ -127,10 +116,9 @@ Estimate estimate(const RegressorSystem& system,
   Solution solution;
   // A coefficient that leaves its bounds is fixed there and the rest solved again.
   while (true) {
-    solution = solve(unknowns_of(system, marginalised, result.free_regressors()),
-                     system.expected_change,
-                     marginalised.kept(data),
-                     noise != nullptr ? &noise->covariance : nullptr);
+    solution =
+        solve(unknowns_of(system, marginalised, result.free_regressors()), system.expected_change,
+              marginalised.kept(data), noise != nullptr ? &noise->covariance : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressor(regressors[result.free[k]]);
@@ -166,8 +154,7 @@ Estimate estimate(const RegressorSystem& system,
   }
   const Eigen::VectorXd off =
       (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
-  const NoiseDensity density(system.noise_dof,
-                             marginalised.kept.size());
+  const NoiseDensity density(system.noise_dof, marginalised.kept.size());
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
@@ -187,8 +174,7 @@ Estimate estimate(const RegressorSystem& system,
 }
 
 Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised,
-                               const Estimate& estimate,
+                               const MarginalisedSystem& marginalised, const Estimate& estimate,
                                const SystemPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   if (estimate.discrepancy_weights.size() == 0) return mm;
@@ -196,24 +182,22 @@ Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
     const SystemUnit& unit = system.units[kept.unit];
     const auto weights = estimate.discrepancy_weights.segment(kept.at, unit.rows);
     for (const observation::PlaceColumns& place_columns : unit.places) {
-      mm += discrepancy_block(
-                estimate.discrepancy.kernel, place, system.places[place_columns.place]) *
+      mm += discrepancy_block(estimate.discrepancy.kernel, place,
+                              system.places[place_columns.place]) *
             place_columns.by_chain.transpose() * weights;
     }
   }
   return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
 }
 
-Eigen::VectorXd left_of_machine(const RegressorSystem& system,
-                                const Estimate& estimate,
+Eigen::VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
                                 const Eigen::VectorXd& left) {
   if (system.nuisances == 0) return left;
-  return left + linear::product(nuisance_columns(system),
-                                estimate.setting_change.tail(system.nuisances));
+  return left +
+         linear::product(nuisance_columns(system), estimate.setting_change.tail(system.nuisances));
 }
 
-Eigen::Vector2d error_of_unit(const RegressorSystem& system,
-                              const Eigen::VectorXd& whitened,
+Eigen::Vector2d error_of_unit(const RegressorSystem& system, const Eigen::VectorXd& whitened,
                               std::size_t unit) {
   const SystemUnit& own = system.units[unit];
   const Eigen::Vector2d mm = own.unwhitened(whitened);
@@ -228,10 +212,8 @@ std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
   return result;
 }
 
-double rms_of_units_mm(const RegressorSystem& system,
-                       const KeptRows& kept,
-                       const Eigen::VectorXd& whitened,
-                       const Indices& units) {
+double rms_of_units_mm(const RegressorSystem& system, const KeptRows& kept,
+                       const Eigen::VectorXd& whitened, const Indices& units) {
   double sum = 0.0;
   double count = 0.0;
   for (const KeptRows::Unit& unit : kept.units()) {
@@ -253,9 +235,8 @@ Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t uni
   const SystemUnit& own = system.units[unit];
   Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
   if (!own.reads_chains) {
-    const Eigen::RowVectorXd nuisance =
-        nuisance_columns(system).row(own.first_row) *
-        system.sigma.tail(system.nuisances).asDiagonal();
+    const Eigen::RowVectorXd nuisance = nuisance_columns(system).row(own.first_row) *
+                                        system.sigma.tail(system.nuisances).asDiagonal();
     noise(0, 0) = std::pow(own.sigma(), 2) * (1.0 + nuisance.squaredNorm());
     return noise;
   }

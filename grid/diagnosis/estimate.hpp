@@ -39,16 +39,13 @@ struct Unknowns {
   Eigen::MatrixXd design;  ///< N x unknowns
   Eigen::VectorXd sigma;   ///< of each beforehand
 };
-Unknowns unknowns_of(const RegressorSystem& system,
-                     const MarginalisedSystem& marginalised,
+Unknowns unknowns_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                      const RegressorSet& free);
 
 /// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
-Estimate estimate(const RegressorSystem& system,
-                  const MarginalisedSystem& marginalised,
-                  const RegressorSet& regressors,
-                  int discrepancy);
+Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                  const RegressorSet& regressors, int discrepancy);
 
 /// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
 struct DiscrepancyNoise {
@@ -59,36 +56,28 @@ struct DiscrepancyNoise {
 std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem& system,
                                                           const MarginalisedSystem& marginalised,
                                                           int discrepancy);
-Estimate estimate(const RegressorSystem& system,
-                  const MarginalisedSystem& marginalised,
-                  const RegressorSet& regressors,
-                  const DiscrepancyNoise* noise);
+Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                  const RegressorSet& regressors, const DiscrepancyNoise* noise);
 
 /// The model discrepancy of either chain at a place [mm]; zero without one.
 Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised,
-                               const Estimate& estimate,
+                               const MarginalisedSystem& marginalised, const Estimate& estimate,
                                const SystemPlace& place);
 
 /// `left` with the nuisances' share added back: the machine's residual. For points `left` itself.
-Eigen::VectorXd left_of_machine(const RegressorSystem& system,
-                                const Estimate& estimate,
+Eigen::VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
                                 const Eigen::VectorXd& left);
 
 /// A unit's whitened residual in mm: a shift of the tool for chain readings; for a distance (excess
 /// length, 0).
-Eigen::Vector2d error_of_unit(const RegressorSystem& system,
-                              const Eigen::VectorXd& whitened,
+Eigen::Vector2d error_of_unit(const RegressorSystem& system, const Eigen::VectorXd& whitened,
                               std::size_t unit);
 std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
-                                             const Eigen::VectorXd& whitened,
-                                             const Indices& units);
+                                             const Eigen::VectorXd& whitened, const Indices& units);
 /// Root mean square over the kept units in mm: of the tool where chains were read, of distances, or of one belt. `units`
 /// empty: all units.
-double rms_of_units_mm(const RegressorSystem& system,
-                       const KeptRows& kept,
-                       const Eigen::VectorXd& whitened,
-                       const Indices& units = {});
+double rms_of_units_mm(const RegressorSystem& system, const KeptRows& kept,
+                       const Eigen::VectorXd& whitened, const Indices& units = {});
 /// Its covariance with noise as stated.
 Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
 /// Root mean square of that over some units.

@@ -118,16 +118,13 @@ LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept)
                                              system.sigma.tail(system.nuisances)));
 }
 
-double length_in_noise(const RegressorSystem& system,
-                       const KeptRows& kept,
+double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
                        const Eigen::VectorXd& column) {
   return nuisance_noise(system, kept).half_solve(kept(column)).norm();
 }
 
-Eigen::VectorXd left_by(const KeptRows& kept,
-                        const Eigen::MatrixXd& columns,
-                        const Eigen::VectorXd& sigma,
-                        Eigen::VectorXd rows) {
+Eigen::VectorXd left_by(const KeptRows& kept, const Eigen::MatrixXd& columns,
+                        const Eigen::VectorXd& sigma, Eigen::VectorXd rows) {
   const Eigen::MatrixXd scaled = linear::scaled_columns(kept.of(columns), sigma);
   const Eigen::VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
                                 .solve(linear::product(linear::transposed(scaled), kept(rows)));
@@ -139,15 +136,13 @@ Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::Vec
   return marginalised.root.solve(marginalised.kept(column));
 }
 
-double reduced_length(const RegressorSystem& system,
-                      const MarginalisedSystem& marginalised,
+double reduced_length(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                       int regressor) {
   return marginalised.g.cols() > 0 ? marginalised.g.col(regressor).norm()
                                    : reduced(marginalised, system.g.col(regressor)).norm();
 }
 
-double wide_coefficient_sigma(const RegressorSystem& system,
-                              const MarginalisedSystem& marginalised,
+double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                               int regressor) {
   const double usual = system.regressor(regressor).coefficient_sigma;
   if (usual > 0.0) return usual * kWideSignalToNoise / kUsualSignalToNoise;
@@ -159,8 +154,7 @@ Eigen::Index NormalEquations::position(int column) const {
   return as_index(found - columns.begin());
 }
 
-Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
-                              const RegressorSet& columns,
+Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
                               Eigen::VectorXd squares) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double sigma = regressors[as_size(columns[i])].coefficient_sigma;
@@ -170,8 +164,7 @@ Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
 }
 
 NormalEquations normal_equations(const RegressorSystem& system,
-                                 const MarginalisedSystem& marginalised,
-                                 RegressorSet columns) {
+                                 const MarginalisedSystem& marginalised, RegressorSet columns) {
   NormalEquations equations;
   sort(columns);
   equations.columns = std::move(columns);
@@ -192,8 +185,7 @@ Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised, const Regre
   return e;
 }
 
-Discrepancy discrepancy_of(const RegressorSystem& system,
-                           const MarginalisedSystem& marginalised,
+Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                            int discrepancy) {
   const DiscrepancyFamily& family = *system.discrepancies;
   const std::size_t number = family.kernel_of(discrepancy);
@@ -202,14 +194,14 @@ Discrepancy discrepancy_of(const RegressorSystem& system,
       number < marginalised.discrepancy_trace.size() ? marginalised.discrepancy_trace[number] : 0.0;
   if (!(trace > 0.0)) {
     // A kernel that was tried with other readings rejected.
-    trace = marginalised.root.solve(discrepancy_factor(system, marginalised.kept, kernel)).squaredNorm();
+    trace = marginalised.root.solve(discrepancy_factor(system, marginalised.kept, kernel))
+                .squaredNorm();
   }
   return {kernel, family.strength_of(discrepancy) / std::sqrt(std::max(trace, 1e-300))};
 }
 
 Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
-                                    const MarginalisedSystem& marginalised,
-                                    int discrepancy) {
+                                    const MarginalisedSystem& marginalised, int discrepancy) {
   if (discrepancy < 0) return Eigen::MatrixXd(marginalised.kept.size(), 0);
   const Discrepancy process = discrepancy_of(system, marginalised, discrepancy);
   return process.sigma_mm * discrepancy_factor(system, marginalised.kept, process.kernel);
@@ -218,12 +210,8 @@ Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
 namespace {
 
 using FewValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostFreeRegressors, 1>;
-using FewByFew = Eigen::Matrix<double,
-                               Eigen::Dynamic,
-                               Eigen::Dynamic,
-                               Eigen::ColMajor,
-                               kMostFreeRegressors,
-                               kMostFreeRegressors>;
+using FewByFew = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                               kMostFreeRegressors, kMostFreeRegressors>;
 
 /// A set's equations in the signal-to-noise ratios of its free regressors, the fixed ones taken from the data.
 struct FreeEquations {
@@ -305,9 +293,7 @@ double invert(FewByFew& a) {
 }
 
 /// Set evidence for one prior sigma of the signal-to-noise ratio.
-SetEvidence evidence_at(const FreeEquations& free,
-                        double log_det,
-                        const NoiseDensity& noise,
+SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDensity& noise,
                         double prior_sigma) {
   const Eigen::Index m = free.c.size();
   const FewValues prior = prior_sigma * free.prior_length;
@@ -319,8 +305,8 @@ SetEvidence evidence_at(const FreeEquations& free,
   result.quadratic = std::max(free.ee - free.c.dot(ratio), 0.0);
   const NoiseDensity::Averages averages = noise.averages(result.quadratic);
   result.larger_noise = averages.larger_share;
-  result.log_evidence = averages.log_density - 0.5 * log_det -
-                        0.5 * std::log(determinant * prior.cwiseAbs2().prod());
+  result.log_evidence =
+      averages.log_density - 0.5 * log_det - 0.5 * std::log(determinant * prior.cwiseAbs2().prod());
   const double s = std::sqrt(averages.noise_square);
   for (Eigen::Index i = 0; i < m; ++i) {
     const double sigma = s * std::sqrt(a(i, i));
@@ -341,10 +327,8 @@ SetEvidence evidence_at(const FreeEquations& free,
 
 }  // namespace
 
-SetEvidence set_evidence(const NormalEquations& equations,
-                         const std::vector<Regressor>& regressors,
-                         std::span<const Eigen::Index> set,
-                         const NoiseDensity& noise) {
+SetEvidence set_evidence(const NormalEquations& equations, const std::vector<Regressor>& regressors,
+                         std::span<const Eigen::Index> set, const NoiseDensity& noise) {
   const FreeEquations free = free_equations(equations, regressors, set);
   // If the kept rows do not depend on a cause they give no evidence for it.
   if (free.is_empty_column) return {kMinusInfinity, 0.0, 0.0};
@@ -357,8 +341,7 @@ SetEvidence set_evidence(const NormalEquations& equations,
 }
 
 EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
-                               const std::vector<Regressor>& regressors,
-                               const NoiseDensity& noise)
+                               const std::vector<Regressor>& regressors, const NoiseDensity& noise)
     : equations_(equations),
       regressors_(regressors),
       noise_(noise),
@@ -368,8 +351,9 @@ EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
     const double unit = s / std::sqrt(equations.prior_square(i));
     for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
       const double sigma = unit * kStrengthPriors[as_size(k)].sigma;
-      outside_(i, k) =
-          regressor(i).fixed ? 0.0 : -log_mass(0.0, sigma, regressor(i).lowest, regressor(i).highest);
+      outside_(i, k) = regressor(i).fixed
+                           ? 0.0
+                           : -log_mass(0.0, sigma, regressor(i).lowest, regressor(i).highest);
     }
   }
 }

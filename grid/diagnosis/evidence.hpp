@@ -88,26 +88,21 @@ MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outli
 /// The same without g.
 MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& outliers);
 /// Length of R^-1 times a regressor's column.
-double reduced_length(const RegressorSystem& system,
-                      const MarginalisedSystem& marginalised,
+double reduced_length(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                       int regressor);
 /// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
 /// appears in the readings.
 LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Length of a column's kept rows in units of that noise.
-double length_in_noise(const RegressorSystem& system,
-                       const KeptRows& kept,
+double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
                        const Eigen::VectorXd& column);
 /// The rows after subtracting these columns with the amplitudes that the kept rows give them.
-Eigen::VectorXd left_by(const KeptRows& kept,
-                        const Eigen::MatrixXd& columns,
-                        const Eigen::VectorXd& sigma,
-                        Eigen::VectorXd rows);
+Eigen::VectorXd left_by(const KeptRows& kept, const Eigen::MatrixXd& columns,
+                        const Eigen::VectorXd& sigma, Eigen::VectorXd rows);
 /// R^-1 of a column of all rows.
 Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column);
 /// One sigma of a regressor's coefficient under the wide prior of its size.
-double wide_coefficient_sigma(const RegressorSystem& system,
-                              const MarginalisedSystem& marginalised,
+double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                               int regressor);
 
 /// |cosine| of two whitened signatures; 0 if one of them is zero.
@@ -132,25 +127,21 @@ struct NormalEquations {
   Eigen::Index position(int column) const;
 };
 /// NormalEquations::prior_square of columns with these squares.
-Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
-                              const RegressorSet& columns,
+Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
                               Eigen::VectorXd squares);
 NormalEquations normal_equations(const RegressorSystem& system,
-                                 const MarginalisedSystem& marginalised,
-                                 RegressorSet columns);
+                                 const MarginalisedSystem& marginalised, RegressorSet columns);
 
 /// The residual and these columns, N x (1 + columns).
 Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns);
 
 /// Kernel and size of a discrepancy, in a marginalised system.
-Discrepancy discrepancy_of(const RegressorSystem& system,
-                           const MarginalisedSystem& marginalised,
+Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                            int discrepancy);
 
 /// s F of a discrepancy (discrepancy_factor) in the kept rows; no columns for none.
 Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
-                                    const MarginalisedSystem& marginalised,
-                                    int discrepancy);
+                                    const MarginalisedSystem& marginalised, int discrepancy);
 
 /// Priors of a signal-to-noise ratio: the usual one, and the wide one.
 struct StrengthPrior {
@@ -172,10 +163,8 @@ struct SetEvidence {
 };
 /// `set` holds positions in the normal equations. Minus infinity if a cause would have to leave its
 /// range. Throws std::length_error for more than kMostFreeRegressors that are not fixed.
-SetEvidence set_evidence(const NormalEquations& equations,
-                         const std::vector<Regressor>& regressors,
-                         std::span<const Eigen::Index> set,
-                         const NoiseDensity& noise);
+SetEvidence set_evidence(const NormalEquations& equations, const std::vector<Regressor>& regressors,
+                         std::span<const Eigen::Index> set, const NoiseDensity& noise);
 
 /// Upper bounds of log_evidence for sets with one more column, at the cost of an inner product each.
 ///
@@ -185,8 +174,7 @@ SetEvidence set_evidence(const NormalEquations& equations,
 class EvidenceBounds {
  public:
   /// All references must outlive this.
-  EvidenceBounds(const NormalEquations& equations,
-                 const std::vector<Regressor>& regressors,
+  EvidenceBounds(const NormalEquations& equations, const std::vector<Regressor>& regressors,
                  const NoiseDensity& noise);
   /// For each column, added to this set.
   [[nodiscard]] Eigen::ArrayXd with_each(std::span<const Eigen::Index> set) const;

@@ -14,7 +14,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr std::size_t kMostGroups = 6;
-constexpr double kLeastProbability = 0.01;  ///< for a group among all, and for a member in its group
+constexpr double kLeastProbability =
+    0.01;  ///< for a group among all, and for a member in its group
 
 /// A cause by its class and its position there.
 using Member = std::pair<std::size_t, std::size_t>;
@@ -66,12 +67,9 @@ std::vector<Group> groups_of(const Analysis& a) {
 ///   mean + K C^-1 (residual),  design - K C^-1 X,  and K** - K C^-1 K' of its own
 /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
 /// \returns the last.
-Eigen::MatrixXd add_discrepancy(const Analysis& a,
-                                const RegressorSystem& system,
-                                const Estimate& fitted,
-                                const LowRankNoise& covariance,
-                                Eigen::VectorXd& mean,
-                                Eigen::MatrixXd& design) {
+Eigen::MatrixXd add_discrepancy(const Analysis& a, const RegressorSystem& system,
+                                const Estimate& fitted, const LowRankNoise& covariance,
+                                Eigen::VectorXd& mean, Eigen::MatrixXd& design) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
@@ -80,16 +78,13 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   const Eigen::MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
   linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(design, -1.0, k, covariance.solve(x));
-  Eigen::MatrixXd own =
-      square * discrepancy_covariance(system, KeptRows::all(system), kernel);
+  Eigen::MatrixXd own = square * discrepancy_covariance(system, KeptRows::all(system), kernel);
   linear::add_gram(own, -1.0, covariance.half_solve(Eigen::MatrixXd(k.transpose())));
   return without_negligible(own);
 }
 
 /// An alternative's prediction for every candidate.
-void predict(const Analysis& a,
-             const RegressorSystem& system,
-             const ColumnOf& column_of_cause,
+void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& column_of_cause,
              Alternative& h) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const auto noise = discrepancy_noise(a.system, marginalised, h.discrepancy);
@@ -114,11 +109,10 @@ void predict(const Analysis& a,
   }
   h.covariance.setZero(design.rows(), design.rows());
   if (noise) h.covariance = add_discrepancy(a, system, fitted, noise->covariance, h.mean, design);
+  linear::add_outer(h.covariance, 1.0,
+                    linear::product(design, linear::Cholesky(fitted.covariance).lower()));
   linear::add_outer(
-      h.covariance, 1.0, linear::product(design, linear::Cholesky(fitted.covariance).lower()));
-  linear::add_outer(
-      h.covariance,
-      1.0,
+      h.covariance, 1.0,
       linear::scaled_columns(system.by_setting.rightCols(to_come), system.sigma.tail(to_come)));
 }
 
@@ -187,18 +181,19 @@ std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   return result;
 }
 
-std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const ObservationSet& next) {
+std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a,
+                                                           const ObservationSet& next) {
   const auto system = linearise(next, a.state);
   if (!system) return std::nullopt;
   return alternatives_about(
       a, *system, [&](const SizedCause& own) { return signature(next, a.state, *system, own); });
 }
 
-std::vector<Alternative> alternatives_about(const Analysis& a,
-                                            const RegressorSystem& next,
+std::vector<Alternative> alternatives_about(const Analysis& a, const RegressorSystem& next,
                                             const ColumnOf& column) {
   std::vector<Alternative> alternatives = alternatives_of_best(a);
-  for_each_index(alternatives.size(), [&](std::size_t k) { predict(a, next, column, alternatives[k]); });
+  for_each_index(alternatives.size(),
+                 [&](std::size_t k) { predict(a, next, column, alternatives[k]); });
   return alternatives;
 }
 
@@ -215,7 +210,9 @@ struct Rival {
 /// leave the rest.
 double chance_of_all(const std::vector<Rival>& rivals) {
   const double odds = (1.0 - kNamedAlone) / kNamedAlone;
-  const auto taken = [](const Rival& rival) { return rival.mean - 2.0 * std::sqrt(rival.variance); };
+  const auto taken = [](const Rival& rival) {
+    return rival.mean - 2.0 * std::sqrt(rival.variance);
+  };
   const auto most = min_element(rivals, ascending(taken));
   constexpr double kWidest = 4.0;  // sigmas
   constexpr int kSteps = 32;

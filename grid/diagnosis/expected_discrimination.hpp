@@ -55,8 +55,7 @@ std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analy
 
 /// As above for the rows of a system; `column` gives a regressor's column there. Empty if such a
 /// machine is invalid.
-std::vector<Alternative> alternatives_about(const Analysis& analysis,
-                                            const RegressorSystem& next,
+std::vector<Alternative> alternatives_about(const Analysis& analysis, const RegressorSystem& next,
                                             const ColumnOf& column);
 
 /// As above without predictions: no means and covariances.

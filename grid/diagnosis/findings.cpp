@@ -106,8 +106,7 @@ class PlaceOfCause {
 
   /// The sigma of a continuous place, from the curvature of the likelihood with settings and all
   /// coefficients free.
-  double fitted_sigma(const Estimate& fitted,
-                      double coefficient,
+  double fitted_sigma(const Estimate& fitted, double coefficient,
                       const Eigen::VectorXd& slope) const {
     const MarginalisedSystem& marginalised = marginalised_system(a_);
     Unknowns unknowns = unknowns_of(a_.system, marginalised, fitted.free_regressors());
@@ -160,8 +159,7 @@ class PlaceOfCause {
 };
 
 /// The cause of regressor `column`, in the effect's order. \pre `fitted` has the regressor.
-std::vector<ParameterEstimate> parameters_of(const Analysis& a,
-                                             int column,
+std::vector<ParameterEstimate> parameters_of(const Analysis& a, int column,
                                              const Estimate& fitted) {
   const Regressor& d = regressor(a, column);
   const Eigen::Index at = fitted.position(column);
@@ -169,8 +167,7 @@ std::vector<ParameterEstimate> parameters_of(const Analysis& a,
   const double sigma = fitted.coefficient_sigma(at);
   std::vector<ParameterEstimate> result;
   const auto& described = d.cause.effect->parameters;
-  result.push_back({std::string(described.front().name),
-                    size_at(d, coefficient),
+  result.push_back({std::string(described.front().name), size_at(d, coefficient),
                     std::abs(size_slope(d, coefficient)) * sigma});
   for (std::size_t k = 1; k < described.size(); ++k)
     result.push_back(PlaceOfCause(a, column, k).estimated(fitted, coefficient));
@@ -236,9 +233,7 @@ std::vector<Cause> causes_found(const Analysis& a) {
 
 Hypothesis hypothesis_of(const CauseClass& members, double probability) {
   const CauseId& cause = members.front();
-  return {std::string(cause.effect->id),
-          std::string(model::effects::name(cause.side)),
-          probability,
+  return {std::string(cause.effect->id), std::string(model::effects::name(cause.side)), probability,
           members};
 }
 
@@ -293,9 +288,8 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
     const double upper = std::abs(size_at(regressor(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
-      not_testable.push_back(
-          {cause,
-           fmt::format("it could hide in these {}, whatever its size", a.session.units_word())});
+      not_testable.push_back({cause, fmt::format("it could hide in these {}, whatever its size",
+                                                 a.session.units_word())});
     } else {
       result.push_back({cause, std::string(size.name), upper});
     }

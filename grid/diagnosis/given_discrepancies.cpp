@@ -23,10 +23,8 @@ struct Scouted {
 
 class Scout {
  public:
-  Scout(const RegressorSystem& system,
-        const NormalEquations& plain,
-        const std::vector<RegressorSet>& best_models,
-        const ModelCollector& collector)
+  Scout(const RegressorSystem& system, const NormalEquations& plain,
+        const std::vector<RegressorSet>& best_models, const ModelCollector& collector)
       : system_(system), plain_(plain), best_models_(best_models), collector_(collector) {
     for (const int k : plain.columns) {
       prior_.push_back(collector.log_prior_of({k}, -1) + std::log(kDiscrepancyPrior));
@@ -76,8 +74,7 @@ class Scout {
     return noise.log_density_as_stated(std::max(q, 0.0)) - 0.5 * std::log1p(gg / precision);
   }
 
-  double together(const NormalEquations& equations,
-                  int discrepancy,
+  double together(const NormalEquations& equations, int discrepancy,
                   const RegressorSet& set) const {
     ColumnSet all;
     for (const int k : set) all.push_back(equations.position(k));
@@ -94,13 +91,9 @@ class Scout {
 };
 
 /// The sets given one discrepancy, with full weights: `best_models`, and those grown from singles.
-void search_given(const RegressorSystem& system,
-                  const NormalEquations& equations,
-                  int discrepancy,
-                  const SearchLimits& limits,
-                  const RegressorSet& singles,
-                  const std::vector<RegressorSet>& best_models,
-                  ModelCollector& collector) {
+void search_given(const RegressorSystem& system, const NormalEquations& equations, int discrepancy,
+                  const SearchLimits& limits, const RegressorSet& singles,
+                  const std::vector<RegressorSet>& best_models, ModelCollector& collector) {
   GrowingSets sets(system, equations, discrepancy, limits, collector);
   const auto positions = [&](const RegressorSet& regressors) {
     ColumnSet set;
@@ -111,17 +104,15 @@ void search_given(const RegressorSystem& system,
   sets.weigh({});
   for (const Eigen::Index column : alone) sets.weigh({column});
   for (const RegressorSet& regressors : best_models) sets.weigh(positions(regressors));
-  sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true}, [&](const ColumnSet&) {
-    return alone;
-  });
+  sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true},
+            [&](const ColumnSet&) { return alone; });
 }
 
 /// Regressors with a score, best first.
 using ScoredRegressors = std::vector<std::pair<double, int>>;
 
 /// The first `most` of each cause, and those that tie with the last of these.
-RegressorSet first_of_each_cause(const RegressorSystem& system,
-                                 const ScoredRegressors& sorted,
+RegressorSet first_of_each_cause(const RegressorSystem& system, const ScoredRegressors& sorted,
                                  std::size_t most) {
   RegressorSet result;
   std::vector<std::pair<CauseId, std::vector<double>>> taken;
@@ -138,8 +129,7 @@ RegressorSet first_of_each_cause(const RegressorSystem& system,
 }
 
 /// The best places of each cause alone, and all leading ones.
-RegressorSet columns_to_scout(const RegressorSystem& system,
-                              const NormalEquations& plain,
+RegressorSet columns_to_scout(const RegressorSystem& system, const NormalEquations& plain,
                               const std::vector<RegressorSet>& best_models) {
   ScoredRegressors scored;
   for (std::size_t k = 0; k < plain.columns.size(); ++k) {
@@ -176,23 +166,17 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
 }
 
 /// A separate beam search for every discrepancy.
-std::vector<double> search_all_by_beam(const RegressorSystem& system,
-                                       DiscrepancyBasis& basis,
-                                       const SearchLimits& limits,
-                                       const NormalEquations& plain,
-                                       const Indices& kernels,
-                                       ModelCollector& collector) {
+std::vector<double> search_all_by_beam(const RegressorSystem& system, DiscrepancyBasis& basis,
+                                       const SearchLimits& limits, const NormalEquations& plain,
+                                       const Indices& kernels, ModelCollector& collector) {
   const DiscrepancyFamily& family = *system.discrepancies;
   const std::size_t strengths = family.strengths.size();
   for (const std::size_t kernel : kernels) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernel, plain);
     for (std::size_t s = limits.strength_step - 1; s < strengths; s += limits.strength_step) {
       const auto discrepancy = static_cast<int>(kernel * strengths + s);
-      search_by_beam(system,
-                     given.equations(family.strength_of(discrepancy), plain.columns),
-                     discrepancy,
-                     limits,
-                     collector);
+      search_by_beam(system, given.equations(family.strength_of(discrepancy), plain.columns),
+                     discrepancy, limits, collector);
     }
   }
   // All are tried with every set of outliers.
@@ -206,8 +190,7 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
                                                const ComparisonOptions& options,
                                                const NormalEquations& plain,
                                                const std::vector<RegressorSet>& best_models,
-                                               const Indices& kernels,
-                                               ModelCollector& collector) {
+                                               const Indices& kernels, ModelCollector& collector) {
   DiscrepancyBasis basis(system, marginalised, kernels);
   if (options.search.of_a_cause > 0)
     return search_all_by_beam(system, basis, options.search, plain, kernels, collector);
@@ -239,13 +222,8 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
     RegressorSet used = singles;
     for (const auto& set : best_models) append_all(used, set);
     sort_unique(used);
-    search_given(system,
-                 given.equations(family.strength_of(discrepancy), used),
-                 discrepancy,
-                 options.search,
-                 singles,
-                 best_models,
-                 collector);
+    search_given(system, given.equations(family.strength_of(discrepancy), used), discrepancy,
+                 options.search, singles, best_models, collector);
   }
   return of_kernel;
 }

@@ -20,8 +20,7 @@ namespace {
 
 /// The discrepancy preferred given these causes, or none. If the comparison contains no model of these causes, the best
 /// model's is used.
-int preferred_discrepancy(const ModelComparison& comparison,
-                          std::size_t marginalised,
+int preferred_discrepancy(const ModelComparison& comparison, std::size_t marginalised,
                           const RegressorSet& causes) {
   const auto* model = find_where(comparison.models, [&](const CandidateModel& own) {
     return own.regressors == causes && own.marginalised == marginalised;
@@ -30,20 +29,17 @@ int preferred_discrepancy(const ModelComparison& comparison,
 }
 
 /// Errors at the units of a fold, of models fitted without them.
-Errors errors_at(const Indices& units,
-                 const Analysis& a,
-                 const ModelComparison& comparison,
+Errors errors_at(const Indices& units, const Analysis& a, const ModelComparison& comparison,
                  const Decision& decision) {
   const MarginalisedSystem marginalised =
       marginalise_rows(a.system, comparison.marginalised_systems[decision.marginalised].outliers);
   std::map<int, std::shared_ptr<const DiscrepancyNoise>> noise;
   // The residual without the model's discrepancy.
-  const auto left = [&](const MarginalisedSystem& own,
-                        const RegressorSet& causes,
+  const auto left = [&](const MarginalisedSystem& own, const RegressorSet& causes,
                         const DiscrepancyNoise* given) {
     const Estimate model = estimate(a.system, own, causes, given);
-    return errors_of_units(
-        a.system, left_of_machine(a.system, model, model.left_given_discrepancy), units);
+    return errors_of_units(a.system, left_of_machine(a.system, model, model.left_given_discrepancy),
+                           units);
   };
   const auto with = [&](const MarginalisedSystem& own, const RegressorSet& causes) {
     const int discrepancy = preferred_discrepancy(comparison, decision.marginalised, causes);
@@ -51,8 +47,7 @@ Errors errors_at(const Indices& units,
     if (is_new) known->second = discrepancy_noise(a.system, marginalised, discrepancy);
     return ErrorsWith{left(own, causes, nullptr), left(marginalised, causes, known->second.get())};
   };
-  return {with(without_slips(a, marginalised), {}),
-          with(marginalised, decision.regressors),
+  return {with(without_slips(a, marginalised), {}), with(marginalised, decision.regressors),
           with(marginalised, a.decision.regressors)};
 }
 
@@ -70,10 +65,8 @@ ObservationSet over_the_area(const Analysis& a) {
 }
 
 /// Expected drop and remaining uncertainty of the error over some units.
-ExpectedImprovement over_units(const RegressorSystem& there,
-                               const Eigen::VectorXd& moved,
-                               const Eigen::MatrixXd& design,
-                               const Eigen::MatrixXd& covariance) {
+ExpectedImprovement over_units(const RegressorSystem& there, const Eigen::VectorXd& moved,
+                               const Eigen::MatrixXd& design, const Eigen::MatrixXd& covariance) {
   double drop = 0.0;
   double doubt = 0.0;
   for (const SystemUnit& unit : there.units) {
@@ -114,8 +107,7 @@ ExpectedImprovement improvement_of_distances(const Analysis& a) {
 
 }  // namespace
 
-DecidedWithout decided_without(const Analysis& a,
-                               const Downdating& downdating,
+DecidedWithout decided_without(const Analysis& a, const Downdating& downdating,
                                const Indices& units) {
   DecidedWithout result{downdating.without(units), {}};
   Flags excluded(a.session.units.size(), false);

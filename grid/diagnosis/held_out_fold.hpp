@@ -40,8 +40,7 @@ struct DecidedWithout {
   Downdating::Without models;
   Decision decision;
 };
-DecidedWithout decided_without(const Analysis& analysis,
-                               const Downdating& downdating,
+DecidedWithout decided_without(const Analysis& analysis, const Downdating& downdating,
                                const Indices& units);
 
 /// Errors of the tool in mm with some causes, without a surface and with one.

@@ -39,10 +39,9 @@ BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
   }
   const Eigen::VectorXd as_stated = uncalibrated(session, *stated);
   if (moves) {
-    const Eigen::VectorXd placed = left_by(marginalised_system(a).kept,
-                                           stated->by_setting.middleCols(kOfMachine, sheet),
-                                           stated->sigma.segment(kOfMachine, sheet),
-                                           as_stated);
+    const Eigen::VectorXd placed =
+        left_by(marginalised_system(a).kept, stated->by_setting.middleCols(kOfMachine, sheet),
+                stated->sigma.segment(kOfMachine, sheet), as_stated);
     result.placed = errors_of_units(*stated, placed, units);
   }
   result.as_stated = errors_of_units(*stated, as_stated, units);
@@ -100,8 +99,7 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
   return all;
 }
 
-std::string scheme_of(const ObservationSet& session,
-                      const HeldOutBlocks& blocks,
+std::string scheme_of(const ObservationSet& session, const HeldOutBlocks& blocks,
                       bool naming_repeated) {
   return fmt::format(
       "{}, each left out in turn, {}",
@@ -115,8 +113,7 @@ std::string scheme_of(const ObservationSet& session,
 
 }  // namespace
 
-HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
-                  const Indices& block,
+HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm, const Indices& block,
                   std::uint64_t seed) {
   HeldOut result;
   if (tool_mm.empty()) return result;
@@ -189,8 +186,7 @@ bool naming_improves_the_map(const Analysis& a) {
 }
 
 bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvement) {
-  return improvement &&
-         improvement->extended_and_surface.rms_mm < improvement->surface_only.rms_mm;
+  return improvement && improvement->extended_and_surface.rms_mm < improvement->surface_only.rms_mm;
 }
 
 Eigen::VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated) {

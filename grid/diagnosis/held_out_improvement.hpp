@@ -24,8 +24,7 @@ bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvemen
 
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over
 /// resampled blocks. `block` numbers the block of each error.
-HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
-                  const Indices& block,
+HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm, const Indices& block,
                   std::uint64_t seed);
 
 /// The errors of the machine as it was delivered. For a place with a command they are commanded

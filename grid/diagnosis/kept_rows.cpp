@@ -66,9 +66,7 @@ KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) {
   }
 }
 
-KeptRows KeptRows::all(const RegressorSystem& system) {
-  return {system, nothing_rejected(system)};
-}
+KeptRows KeptRows::all(const RegressorSystem& system) { return {system, nothing_rejected(system)}; }
 
 Rows KeptRows::positions(const Indices& units) const {
   Rows result;

@@ -15,13 +15,12 @@ std::optional<model::Belt> belt_of(Enters enters) {
 }
 
 std::string_view name(LawShape shape) {
-  constexpr std::string_view kNames[] = {"linear", "square", "step", "kink", "exponential", "wave", "harmonics"};
+  constexpr std::string_view kNames[] = {"linear",      "square", "step",     "kink",
+                                         "exponential", "wave",   "harmonics"};
   return kNames[static_cast<std::size_t>(shape)];
 }
 
-bool is_periodic(LawShape shape) {
-  return shape == LawShape::wave || shape == LawShape::harmonics;
-}
+bool is_periodic(LawShape shape) { return shape == LawShape::wave || shape == LawShape::harmonics; }
 
 std::size_t parameter_count(LawShape shape) {
   constexpr std::size_t kCounts[] = {1, 2, 2, 2, 2, 3, 5};  // by LawShape
@@ -31,7 +30,8 @@ std::size_t parameter_count(LawShape shape) {
 double value_of(const Law& law, double v) {
   const std::size_t count = parameter_count(law.shape);
   if (law.parameters.size() != count) {
-    throw precondition("a law of shape {} with {} parameters", name(law.shape), law.parameters.size());
+    throw precondition("a law of shape {} with {} parameters", name(law.shape),
+                       law.parameters.size());
   }
   const double size = law.parameters.front().value;
   const double second = count > 1 ? law.parameters[1].value : 0.0;

@@ -302,8 +302,8 @@ std::vector<LawCurve> law_curves(const RegressorSystem& system) {
   for (int k = 1; k < kLawDirections; ++k) {
     if (2 * k == kLawDirections) continue;
     // A direction is one more parameter.
-    list.add_all(
-        Coordinate::across, std::numbers::pi * k / kLawDirections, 0.5 / (kLawDirections - 2));
+    list.add_all(Coordinate::across, std::numbers::pi * k / kLawDirections,
+                 0.5 / (kLawDirections - 2));
   }
   std::vector<LawCurve> curves = list.take();
   share_out(curves);
@@ -329,8 +329,7 @@ Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& a
 
 }  // namespace
 
-Eigen::MatrixXd law_columns(const RegressorSystem& system,
-                            const LawCurve& curve,
+Eigen::MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
                             const std::vector<double>& at) {
   const Eigen::Index count = columns_of(curve.shape) * std::ssize(at);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system.e.size(), count);
@@ -344,17 +343,10 @@ Eigen::MatrixXd law_columns(const RegressorSystem& system,
 
 std::vector<Coordinate> law_variables(const RegressorSystem& system) {
   if (system.is_of_lengths()) {
-    return {Coordinate::x,
-            Coordinate::y,
-            Coordinate::length_tl,
-            Coordinate::length_tr,
-            Coordinate::length_bl,
-            Coordinate::length_br,
-            Coordinate::angle_tl,
-            Coordinate::angle_tr,
-            Coordinate::angle_bl,
-            Coordinate::angle_br,
-            Coordinate::visit};
+    return {Coordinate::x,         Coordinate::y,         Coordinate::length_tl,
+            Coordinate::length_tr, Coordinate::length_bl, Coordinate::length_br,
+            Coordinate::angle_tl,  Coordinate::angle_tr,  Coordinate::angle_bl,
+            Coordinate::angle_br,  Coordinate::visit};
   }
   return {Coordinate::x,
           Coordinate::y,
@@ -388,8 +380,7 @@ bool may_repeat(Coordinate of, Enters enters) {
   return chain && enters == (*chain == model::Side::left ? Enters::left : Enters::right);
 }
 
-std::vector<double> values_of_variable(const RegressorSystem& system,
-                                       Coordinate of,
+std::vector<double> values_of_variable(const RegressorSystem& system, Coordinate of,
                                        double direction_rad) {
   std::vector<double> values;
   for (const SystemPlace& place : system.places) {
@@ -399,8 +390,7 @@ std::vector<double> values_of_variable(const RegressorSystem& system,
   return values;
 }
 
-std::vector<LawRows> law_rows(const RegressorSystem& system,
-                              std::size_t unit,
+std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,
                               const LawTerm& term) {
   std::vector<LawRows> all;
   for (const observation::PlaceColumns& own : system.units[unit].places) {

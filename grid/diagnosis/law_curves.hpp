@@ -59,8 +59,7 @@ double shortest_wave(Coordinate of, Enters enters, double span);
 bool may_repeat(Coordinate of, Enters enters);
 
 /// Values of a law's variable at all places of a system that have one.
-std::vector<double> values_of_variable(const RegressorSystem& system,
-                                       Coordinate of,
+std::vector<double> values_of_variable(const RegressorSystem& system, Coordinate of,
                                        double direction_rad);
 
 /// A value of a law's variable, and what one millimetre of the law adds to the whitened rows of a
@@ -110,8 +109,7 @@ bool is_continuous(LawShape shape);
 double density_at(const LawCurve& curve, double at);
 
 /// Whitened rows that a law's amplitudes add to at some points of its grid, one after the other: all rows by columns_of().
-Eigen::MatrixXd law_columns(const RegressorSystem& system,
-                            const LawCurve& curve,
+Eigen::MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
                             const std::vector<double>& at);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -100,11 +100,10 @@ std::string formula_of(const Law& law, const model::Bed& bed) {
   const std::string place = fmt::format("place_{}", unit_of(law.of));
   switch (law.shape) {
     case LawShape::linear:
-      return fmt::format(
-          "size_mm * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), over_span);
+      return fmt::format("size_mm * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), over_span);
     case LawShape::square:
-      return fmt::format(
-          "size_mm * (({} - {:.6g}) / {})^2", v, law.parameters[1].value, with_unit(law, 0.5 * span));
+      return fmt::format("size_mm * (({} - {:.6g}) / {})^2", v, law.parameters[1].value,
+                         with_unit(law, 0.5 * span));
     case LawShape::step:
       return fmt::format("size_mm * step({} - {})", v, place);
     case LawShape::kink:
@@ -112,26 +111,23 @@ std::string formula_of(const Law& law, const model::Bed& bed) {
                              : fmt::format("size_mm * ramp({} - {}) / {}", place, v, over_span);
     case LawShape::exponential: {
       const std::string scale = with_unit(law, law.parameters[1].value);
-      return law.towards > 0
-                 ? fmt::format("size_mm * exp(({} - {:.6g}) / {})", v, law.to, scale)
-                 : fmt::format("size_mm * exp(({:.6g} - {}) / {})", law.from, v, scale);
+      return law.towards > 0 ? fmt::format("size_mm * exp(({} - {:.6g}) / {})", v, law.to, scale)
+                             : fmt::format("size_mm * exp(({:.6g} - {}) / {})", law.from, v, scale);
     }
     case LawShape::wave:
     case LawShape::harmonics:
       break;
   }
-  const std::string turn = fmt::format(
-      "2 * pi * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), with_unit(law, law.parameters[1].value));
+  const std::string turn = fmt::format("2 * pi * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to),
+                                       with_unit(law, law.parameters[1].value));
   if (law.shape == LawShape::wave) return fmt::format("size_mm * sin({} + phase_rad)", turn);
   // The shape of one period is kept: the harmonic scales and shifts with the wave.
   const double ratio = law.parameters[3].value / law.parameters[0].value;
   const double behind = std::remainder(law.parameters[4].value - 2.0 * law.parameters[2].value,
                                        2.0 * std::numbers::pi);
-  return fmt::format("size_mm * (sin({} + phase_rad) + {:.6g} * sin(2 * ({} + phase_rad) + {:.6f}))",
-                     turn,
-                     ratio,
-                     turn,
-                     behind);
+  return fmt::format(
+      "size_mm * (sin({} + phase_rad) + {:.6g} * sin(2 * ({} + phase_rad) + {:.6f}))", turn, ratio,
+      turn, behind);
 }
 
 /// A factor: what a millimetre of the law adds to either chain; empty if it enters the chain
@@ -144,8 +140,8 @@ std::string entrance_of(const Law& law) {
       return "-sin(phi) * ";
     case Enters::along: {
       const double direction = law.direction_deg * std::numbers::pi / 180.0;
-      return fmt::format(
-          "({:.6f} * side * cos(phi) - {:.6f} * sin(phi)) * ", std::cos(direction), std::sin(direction));
+      return fmt::format("({:.6f} * side * cos(phi) - {:.6f} * sin(phi)) * ", std::cos(direction),
+                         std::sin(direction));
     }
     default:
       return "";
@@ -159,7 +155,8 @@ std::string refusal_of(const Law& law) {
     return fmt::format("a chain's formula uses only that chain, but this law {}",
                        moves ? "moves the tool" : "acts elsewhere");
   }
-  if (law.enters == Enters::outwards || law.enters == Enters::mixed || law.enters == Enters::opposite) {
+  if (law.enters == Enters::outwards || law.enters == Enters::mixed ||
+      law.enters == Enters::opposite) {
     return "a law that moves the tool outwards moves it along x by one distance and along y by "
            "another, which no formula of a chain can express";
   }
@@ -180,7 +177,8 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const mode
                : law.enters == Enters::right ? EffectSide::right
                                              : EffectSide::both};
   own.parameters = {size_of(law)};
-  const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink || is_periodic(law.shape);
+  const bool has_place =
+      law.shape == LawShape::step || law.shape == LawShape::kink || is_periodic(law.shape);
   if (has_place) own.parameters.push_back(place_of(law));
   own.adds_mm = entrance_of(law) + formula_of(law, bed);
   own.cause = fmt::format("a cause without a name, {}", form_in_words(law));
@@ -203,9 +201,7 @@ tl::expected<Declaration, std::string> declaration_of(const std::vector<Law>& la
     return tl::unexpected(
         fmt::format("No law is written: the likeliest, {}, has a probability of {}, and {} is "
                     "needed. Measure more points.",
-                    in_words(first),
-                    percent(first.probability),
-                    percent(kLawClaimed)));
+                    in_words(first), percent(first.probability), percent(kLawClaimed)));
   }
   return declaration_of(first, bed);
 }

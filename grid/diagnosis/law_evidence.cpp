@@ -92,7 +92,8 @@ class LawSearch {
     log_without_ = log_sum(weights);
     sort(all);
     for (const auto& [minus, context] : all) {
-      if (without_.size() == kMostContexts / 2 || minus > all.front().first + kContextsWithin) break;
+      if (without_.size() == kMostContexts / 2 || minus > all.front().first + kContextsWithin)
+        break;
       without_.push_back(context);
     }
     choose_first(all);
@@ -180,8 +181,7 @@ class LawSearch {
       const auto at = best - points.begin();
       const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
       for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(at - 1 - pass, 0);
-           k < std::min(at + 1 + pass, last);
-           ++k) {
+           k < std::min(at + 1 + pass, last); ++k) {
         between(points[as_size(k)].at, points[as_size(k) + 1].at);
       }
       if (finer.empty()) return;
@@ -336,8 +336,7 @@ double LawEvidence::log_total() const {
   return log_sum(terms);
 }
 
-LawEvidence weigh_laws(const Analysis& analysis,
-                       std::size_t marginalised,
+LawEvidence weigh_laws(const Analysis& analysis, std::size_t marginalised,
                        std::vector<LawCurve> curves) {
   return LawSearch(analysis, marginalised, std::move(curves)).run(marginalised);
 }

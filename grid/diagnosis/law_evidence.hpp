@@ -45,8 +45,7 @@ struct LawEvidence {
 };
 
 /// In one of the comparison's marginalised systems. `curves` with their shares.
-LawEvidence weigh_laws(const Analysis& analysis,
-                       std::size_t marginalised,
+LawEvidence weigh_laws(const Analysis& analysis, std::size_t marginalised,
                        std::vector<LawCurve> curves);
 
 }  // namespace chaintrue::grid::diagnosis

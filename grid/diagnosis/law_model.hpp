@@ -26,10 +26,8 @@ namespace chaintrue::grid::diagnosis {
 class LawModel {
  public:
   /// `regressors` of the system; `discrepancy` -1 for none. Both arguments must outlive this.
-  LawModel(const Analysis& a,
-           const MarginalisedSystem& marginalised,
-           const RegressorSet& regressors,
-           int discrepancy)
+  LawModel(const Analysis& a, const MarginalisedSystem& marginalised,
+           const RegressorSet& regressors, int discrepancy)
       : system_(a.system),
         marginalised_(marginalised),
         pattern_(discrepancy_columns(a.system, marginalised, discrepancy)),
@@ -65,8 +63,8 @@ class LawModel {
     Left left;
     left.noise = marginalised_.root.solve(LowRankNoise(reduced_).solve(left_by(known)));
     left.unexplained = left.noise;
-    linear::add_product(
-        left.unexplained, 1.0, pattern_, linear::product(linear::transposed(pattern_), left.noise));
+    linear::add_product(left.unexplained, 1.0, pattern_,
+                        linear::product(linear::transposed(pattern_), left.noise));
     return left;
   }
 
@@ -96,8 +94,7 @@ class LawModel {
     // Holes not yet cut have their own columns, after all others.
     const Eigen::Index to_come = next.by_setting.cols() - settings;
     linear::add_outer(
-        own,
-        1.0,
+        own, 1.0,
         linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
     if (process_) {
       const double square = process_->sigma_mm * process_->sigma_mm;
@@ -110,8 +107,8 @@ class LawModel {
     const Eigen::MatrixXd half = noise.half_solve(marginalised_.root.solve(across));
     Expected expected;
     expected.mean = linear::product(next.by_setting.leftCols(settings), system_.expected_change);
-    linear::add_product(
-        expected.mean, 1.0, linear::transposed(half), noise.half_solve(marginalised_.e));
+    linear::add_product(expected.mean, 1.0, linear::transposed(half),
+                        noise.half_solve(marginalised_.e));
     linear::add_gram(own, -1.0, half);
     expected.covariance = without_negligible(own);
     return expected;
@@ -159,8 +156,7 @@ class LawModel {
 
 /// An explanation with the amplitudes of a law at one place; null for the likeliest without a law.
 inline LawModel model_with(const Analysis& a, const LawEvidence& evidence, const WeighedLaw* law) {
-  LawModel model(a,
-                 a.comparison.marginalised_systems[evidence.marginalised],
+  LawModel model(a, a.comparison.marginalised_systems[evidence.marginalised],
                  evidence.sets[law != nullptr ? law->set : evidence.without_set],
                  law != nullptr ? law->discrepancy : evidence.without_discrepancy);
   if (law == nullptr) return model;

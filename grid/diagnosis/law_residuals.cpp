@@ -10,10 +10,8 @@
 
 namespace chaintrue::grid::diagnosis {
 
-std::vector<LawResidual> residuals_about(const Analysis& a,
-                                         const LawEvidence& evidence,
-                                         const WeighedLaw& weighed,
-                                         const Law& law) {
+std::vector<LawResidual> residuals_about(const Analysis& a, const LawEvidence& evidence,
+                                         const WeighedLaw& weighed, const Law& law) {
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[evidence.marginalised];
   const LawCurve& curve = evidence.curves[weighed.curve];
@@ -179,8 +177,7 @@ class Predictor {
 
 }  // namespace
 
-std::optional<LawHeldOut> held_out_with(const Analysis& a,
-                                        const LawEvidence& evidence,
+std::optional<LawHeldOut> held_out_with(const Analysis& a, const LawEvidence& evidence,
                                         const WeighedLaw& law) {
   const std::vector<BedPart> quarters =
       bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
@@ -195,9 +192,7 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a,
   return LawHeldOut{predictor.errors(folds(a.system, kept)), predictor.errors(parts)};
 }
 
-double averaged_over_parts(const Analysis& a,
-                           const LawEvidence& evidence,
-                           const WeighedLaw& law,
+double averaged_over_parts(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law,
                            double probability) {
   const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
   const std::vector<BedPart> parts =

@@ -121,8 +121,7 @@ class LawSystem {
   }
 
   /// Log prior and evidence of a context with some of the laws' columns; without the laws' prior.
-  double log_weight(const NormalEquations& equations,
-                    const LawContext& context,
+  double log_weight(const NormalEquations& equations, const LawContext& context,
                     const ColumnSet& laws) const {
     const Priors& priors = log_prior_[context.set];
     const bool given = context.discrepancy >= 0;
@@ -133,8 +132,7 @@ class LawSystem {
                .log_evidence;
   }
 
-  LawAmplitudes amplitudes(const NormalEquations& equations,
-                           const LawContext& context,
+  LawAmplitudes amplitudes(const NormalEquations& equations, const LawContext& context,
                            const ColumnSet& laws) const {
     const ColumnSet all = all_columns(context, laws);
     Eigen::MatrixXd a = equations.gg(all, all);

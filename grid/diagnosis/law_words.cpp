@@ -45,8 +45,9 @@ const VariableUnit& unit_of_variable(const Law& law) {
 /// A place, scale or period with its unit.
 std::string quantity_words(const Law& law, const ParameterEstimate& estimate) {
   const VariableUnit& unit = unit_of_variable(law);
-  return fmt::format(
-      "{} {}", number_words(unit.factor * estimate.value, unit.factor * estimate.sigma), unit.words);
+  return fmt::format("{} {}",
+                     number_words(unit.factor * estimate.value, unit.factor * estimate.sigma),
+                     unit.words);
 }
 
 std::string entrance_words(Enters enters) {
@@ -87,8 +88,7 @@ std::string variable_in_words(const Law& law) {
       return of_belts ? "y from the bottom left anchor" : "y";
     case Coordinate::across:
       return fmt::format("the distance{} in the direction {:.0f} degrees from x towards y",
-                         of_belts ? " from the bottom left anchor" : "",
-                         law.direction_deg);
+                         of_belts ? " from the bottom left anchor" : "", law.direction_deg);
     case Coordinate::border:
       return "the distance from the border";
     case Coordinate::visit:
@@ -121,8 +121,8 @@ std::string form_in_words(const Law& law) {
                                          "an exponential",
                                          "a wave",
                                          "a wave with its second harmonic"};
-  return fmt::format(
-      "{} over {}", kForms[static_cast<std::size_t>(law.shape)], variable_in_words(law));
+  return fmt::format("{} over {}", kForms[static_cast<std::size_t>(law.shape)],
+                     variable_in_words(law));
 }
 
 std::string in_words(const Law& law) {
@@ -141,8 +141,7 @@ std::string in_words(const Law& law) {
     return k < own.size() ? number_words(own[k].value, own[k].sigma) : "";
   };
   return fmt::format(fmt::runtime(kSentences[static_cast<std::size_t>(law.shape)]),
-                     fmt::arg("size", size_words(0)),
-                     fmt::arg("second", size_words(3)),
+                     fmt::arg("size", size_words(0)), fmt::arg("second", size_words(3)),
                      fmt::arg("slope", slope_words(law, own.front())),
                      fmt::arg("at", own.size() > 1 ? quantity_words(law, own[1]) : ""),
                      fmt::arg("side", law.towards > 0 ? "beyond" : "below"),
@@ -159,8 +158,8 @@ std::string given_law_words(const Diagnosis& d) {
     std::string cause = sized(own.cause, own.parameters);
     for (const CauseId& same : own.same_as) cause += " or " + sized(same, {});
     if (own.parameters.empty()) {
-      gone.push_back(fmt::format(
-          "{}: {} instead of {}", cause, percent(own.probability), percent(own.without_law)));
+      gone.push_back(fmt::format("{}: {} instead of {}", cause, percent(own.probability),
+                                 percent(own.without_law)));
     } else {
       named.push_back(fmt::format("{}: {}", cause, percent(own.probability)));
       sum += own.probability;
@@ -197,8 +196,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
     // Tolerance of a period: one per cent.
     if (is_near(law, turn, 0.01 * turn)) {
       hints.push_back(fmt::format(
-          "Its period is near one turn of the sprocket ({:.1f} mm): is it eccentric?",
-          turn));
+          "Its period is near one turn of the sprocket ({:.1f} mm): is it eccentric?", turn));
     } else if (is_near(law, 0.5 * turn, 0.005 * turn)) {
       hints.push_back(fmt::format(
           "Its period is near half a turn of the sprocket ({:.1f} mm): is it out of round?",

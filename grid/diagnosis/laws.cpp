@@ -162,8 +162,8 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
       law_columns(system, best.curve(), {best.law->at}) * best.law->amplitude;
   const auto left_mm = [&](Eigen::VectorXd of_rows) {
     const KeptRows& kept = marginalised.kept;
-    return rms_of_units_mm(
-        system, kept, left_by(kept, system.by_setting, system.sigma, std::move(of_rows)));
+    return rms_of_units_mm(system, kept,
+                           left_by(kept, system.by_setting, system.sigma, std::move(of_rows)));
   };
   law.rms_mm = left_mm(rows);
   const double all = left_mm(system.e - linear::product(system.by_setting, system.expected_change));
@@ -171,8 +171,7 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
 }
 
 /// Laws with one variable and one way to enter; without a probability if they are too improbable to report.
-std::pair<Law, FoundPoint> law_of(const Analysis& a,
-                                  const std::vector<FoundPoint>& points,
+std::pair<Law, FoundPoint> law_of(const Analysis& a, const std::vector<FoundPoint>& points,
                                   double log_all) {
   std::map<LawShape, double> shapes;
   double sum = 0.0;

@@ -43,8 +43,7 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
 }
 
 ModelCollector::ModelCollector(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised,
-                               std::size_t number,
+                               const MarginalisedSystem& marginalised, std::size_t number,
                                const ComparisonOptions& options)
     : system_(system),
       marginalised_(marginalised),
@@ -53,8 +52,7 @@ ModelCollector::ModelCollector(const RegressorSystem& system,
       noise_(system.noise_dof, marginalised.kept.size()),
       best_(kMinusInfinity) {}
 
-double ModelCollector::consider(const ColumnSet& set,
-                                int discrepancy,
+double ModelCollector::consider(const ColumnSet& set, int discrepancy,
                                 const NormalEquations& equations) {
   const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
   if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
@@ -92,11 +90,8 @@ ColumnSet with_column(ColumnSet set, Eigen::Index column) {
   return set;
 }
 
-GrowingSets::GrowingSets(const RegressorSystem& system,
-                         const NormalEquations& equations,
-                         int discrepancy,
-                         const SearchLimits& limits,
-                         ModelCollector& collector)
+GrowingSets::GrowingSets(const RegressorSystem& system, const NormalEquations& equations,
+                         int discrepancy, const SearchLimits& limits, ModelCollector& collector)
     : system_(system),
       equations_(equations),
       discrepancy_(discrepancy),
@@ -114,8 +109,7 @@ bool GrowingSets::fits(const ColumnSet& set, Eigen::Index column) const {
   });
 }
 
-void GrowingSets::grow(std::size_t size,
-                       const GrowthLimits& limits,
+void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
                        const std::function<ColumnSet(const ColumnSet&)>& extensions) {
   for (; size < kMostCauses; ++size) {
     std::vector<WeighedSet> parents = weighed_[size];
@@ -132,11 +126,8 @@ void GrowingSets::grow(std::size_t size,
   }
 }
 
-void search_by_beam(const RegressorSystem& system,
-                    const NormalEquations& equations,
-                    int discrepancy,
-                    const SearchLimits& limits,
-                    ModelCollector& collector) {
+void search_by_beam(const RegressorSystem& system, const NormalEquations& equations,
+                    int discrepancy, const SearchLimits& limits, ModelCollector& collector) {
   // Number of sets of none, one, two and three causes that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
   const GrowingSets sets(system, equations, discrepancy, limits, collector);
@@ -156,11 +147,13 @@ void search_by_beam(const RegressorSystem& system,
         const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
         if (is_new) {
           RegressorSet regressors = {equations.columns[as_size(i)]};
-          for (const Eigen::Index other : parent.set) regressors.push_back(equations.columns[as_size(other)]);
+          for (const Eigen::Index other : parent.set)
+            regressors.push_back(equations.columns[as_size(other)]);
           known->second = collector.log_prior_of(regressors, discrepancy) - own.log_prior;
         }
         const double at_most = most(i) + known->second + own.log_prior;
-        const bool may_be_extended = extended > 0 && (heaviest.size() < extended || at_most >= *heaviest.begin());
+        const bool may_be_extended =
+            extended > 0 && (heaviest.size() < extended || at_most >= *heaviest.begin());
         if (!may_be_extended && !collector.keeps(size, discrepancy, at_most)) continue;
         if (!sets.fits(parent.set, i)) continue;
         ColumnSet set = with_column(parent.set, i);

@@ -20,10 +20,8 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
 class ModelCollector {
  public:
   /// `number` is the marginalised system's in its comparison; the references must outlive this.
-  ModelCollector(const RegressorSystem& system,
-                 const MarginalisedSystem& marginalised,
-                 std::size_t number,
-                 const ComparisonOptions& options);
+  ModelCollector(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                 std::size_t number, const ComparisonOptions& options);
 
   /// Returns a set's weight and keeps the set if relevant; minus infinity if it is impossible.
   double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
@@ -57,11 +55,8 @@ struct GrowthLimits {
 class GrowingSets {
  public:
   /// All references must outlive this; all sets go to the collector.
-  GrowingSets(const RegressorSystem& system,
-              const NormalEquations& equations,
-              int discrepancy,
-              const SearchLimits& limits,
-              ModelCollector& collector);
+  GrowingSets(const RegressorSystem& system, const NormalEquations& equations, int discrepancy,
+              const SearchLimits& limits, ModelCollector& collector);
 
   void weigh(const ColumnSet& set);
   const std::vector<WeighedSet>& of_size(std::size_t size) const { return weighed_[size]; }
@@ -71,8 +66,7 @@ class GrowingSets {
   /// Whether the columns may act together.
   bool fits(const ColumnSet& set, Eigen::Index column) const;
   /// Weighs the best sets of `size` and more columns with one more, as `extensions` has for each.
-  void grow(std::size_t size,
-            const GrowthLimits& limits,
+  void grow(std::size_t size, const GrowthLimits& limits,
             const std::function<ColumnSet(const ColumnSet&)>& extensions);
 
  private:
@@ -89,11 +83,8 @@ class GrowingSets {
 
 /// Sets of up to kMostCauses columns grown from nothing by a beam search, given one discrepancy or
 /// none; all go to the collector.
-void search_by_beam(const RegressorSystem& system,
-                    const NormalEquations& equations,
-                    int discrepancy,
-                    const SearchLimits& limits,
-                    ModelCollector& collector);
+void search_by_beam(const RegressorSystem& system, const NormalEquations& equations,
+                    int discrepancy, const SearchLimits& limits, ModelCollector& collector);
 
 /// The sets of causes that matter given a model discrepancy, in one marginalised system. Every kernel and
 /// strength is looked at with nothing, with each cause alone and with the best sets that were found without a
@@ -109,7 +100,6 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
                                                const ComparisonOptions& options,
                                                const NormalEquations& plain,
                                                const std::vector<RegressorSet>& best_models,
-                                               const Indices& kernels,
-                                               ModelCollector& collector);
+                                               const Indices& kernels, ModelCollector& collector);
 
 }  // namespace chaintrue::grid::diagnosis

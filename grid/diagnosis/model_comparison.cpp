@@ -15,8 +15,8 @@ namespace {
 
 /// `odds` multiplies those of causes against none; all priors still sum to one.
 double prior_of_count(std::size_t causes, double odds) {
-  const std::array<double, kMostCauses + 1> prior = {
-      kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
+  const std::array<double, kMostCauses + 1> prior = {kPriorOfNothing, kPriorOfOne, kPriorOfTwo,
+                                                     kPriorOfThree, kPriorOfFour};
   if (odds == 1.0) return prior.at(causes);
   const double some = kPriorOfOne + kPriorOfTwo + kPriorOfThree + kPriorOfFour;
   const double factor = causes > 0 ? odds : 1.0;
@@ -24,8 +24,7 @@ double prior_of_count(std::size_t causes, double odds) {
 }
 
 /// No cause, and each cause alone at its best place.
-std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system,
-                                           const Flags& excluded,
+std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system, const Flags& excluded,
                                            const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   const NoiseDensity noise(system.noise_dof, marginalised.kept.size());
@@ -44,8 +43,7 @@ std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system,
 const CandidateModel& ModelComparison::best() const {
   if (models.empty()) {
     throw precondition("no models to choose from ({} systems, total weight {})",
-                       marginalised_systems.size(),
-                       log_total);
+                       marginalised_systems.size(), log_total);
   }
   return models.front();
 }
@@ -78,8 +76,7 @@ double log_prior(const RegressorSystem& system, const RegressorSet& set, bool di
   return value + std::log(prior_of_count(lasting, odds)) + std::lgamma(1.0 + as_double(lasting));
 }
 
-double log_odds_of_another(const RegressorSystem& system,
-                           const RegressorSet& set,
+double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set,
                            bool discrepancy) {
   const auto lasting = as_size(std::count_if(set.begin(), set.end(), [&](int k) {
     const Regressor& d = system.regressor(k);
@@ -91,10 +88,8 @@ double log_odds_of_another(const RegressorSystem& system,
          std::log(1.0 + as_double(lasting)) - std::log(system.prior.shares);
 }
 
-SingleScores single_scores(const RegressorSystem& system,
-                           const MarginalisedSystem& marginalised,
-                           const NoiseDensity& noise,
-                           const Eigen::VectorXd& e) {
+SingleScores single_scores(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                           const NoiseDensity& noise, const Eigen::VectorXd& e) {
   SingleScores scores;
   const double ee = e.squaredNorm();
   const double nothing = noise.log_density(ee);
@@ -138,8 +133,7 @@ namespace {
 
 /// The best model's outliers that are off by a whole number of links: each set of outliers is tried
 /// again without one of them.
-std::vector<Flags> sets_without_links(const RegressorSystem& system,
-                                      const Flags& excluded,
+std::vector<Flags> sets_without_links(const RegressorSystem& system, const Flags& excluded,
                                       const ModelComparison& comparison) {
   // A rejected direction is not a whole reading that is off by links.
   if (!system.groups.empty()) return {};
@@ -246,8 +240,7 @@ Indices best_kernels(const ModelComparison& comparison) {
   return likeliest;
 }
 
-ModelComparison compare_models(const RegressorSystem& system,
-                               const Flags& excluded,
+ModelComparison compare_models(const RegressorSystem& system, const Flags& excluded,
                                const ComparisonOptions& options) {
   Comparer comparer(system, excluded, options);
   auto sets = outlier_sets(system, excluded, first_hypotheses(system, excluded, options));

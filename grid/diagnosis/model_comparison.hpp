@@ -72,8 +72,7 @@ struct ComparisonOptions {
 };
 
 /// Points that are known not to count (held out) are `excluded`.
-ModelComparison compare_models(const RegressorSystem& system,
-                               const Flags& excluded,
+ModelComparison compare_models(const RegressorSystem& system, const Flags& excluded,
                                const ComparisonOptions& options);
 
 /// The heaviest kernels of a comparison, for others of the same session: enough to hold the weight
@@ -88,8 +87,7 @@ double log_prior(const RegressorSystem& system, const RegressorSet& set, bool di
 
 /// Log prior odds of one more lasting cause, without its share in the catalogue (exp of its
 /// log_prior); minus infinity beyond kMostCauses.
-double log_odds_of_another(const RegressorSystem& system,
-                           const RegressorSet& set,
+double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set,
                            bool discrepancy);
 
 /// Log Bayes factor of one cause against none, averaged over its places, by position in `causes`.
@@ -98,9 +96,7 @@ struct SingleScores {
   std::vector<double> log_factor;
   RegressorSet best_regressor;
 };
-SingleScores single_scores(const RegressorSystem& system,
-                           const MarginalisedSystem& marginalised,
-                           const NoiseDensity& noise,
-                           const Eigen::VectorXd& e);
+SingleScores single_scores(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                           const NoiseDensity& noise, const Eigen::VectorXd& e);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -26,11 +26,8 @@ std::optional<std::string> suspected_tape_zero(const MeasuredHoles& set) {
       "all distances are about {:.0f} mm {} than commanded, whatever their length: the tape's "
       "hook offset, entered as {:g} mm, is probably {:.0f} mm. Correct it (\"tape\": "
       "{{\"hook_offset_mm\": {:.0f}}}), then diagnose again",
-      std::abs(*tape_zero_mm),
-      *tape_zero_mm > 0.0 ? "longer" : "shorter",
-      entered_mm,
-      entered_mm + *tape_zero_mm,
-      entered_mm + *tape_zero_mm);
+      std::abs(*tape_zero_mm), *tape_zero_mm > 0.0 ? "longer" : "shorter", entered_mm,
+      entered_mm + *tape_zero_mm, entered_mm + *tape_zero_mm);
 }
 
 /// Slips of a whole file, which resemble no effect, in data that no file reader has checked.
@@ -41,9 +38,9 @@ std::optional<std::string> suspected_slip(const Measured& measured) {
       const MeasuredFile& other = measured.files()[k];
       if (!same_readings(first, other)) continue;
       return fmt::format(
-          "{} has the same readings as {}, to the last digit, and a copy adds nothing. Leave it out",
-          other.name,
-          first.name);
+          "{} has the same readings as {}, to the last digit, and a copy adds nothing. Leave it "
+          "out",
+          other.name, first.name);
     }
   }
   for (const MeasuredHoles* set : measured.holes()) {
@@ -52,7 +49,8 @@ std::optional<std::string> suspected_slip(const Measured& measured) {
   for (const MeasuredGrid* grid : measured.grids()) {
     const auto whole = input_checks::check_points(*grid).whole;
     // A rotated sheet looks like axes that are not square, plus a law.
-    if (whole && (!whole->is_doubtful || whole->kind == ProblemKind::axes)) return whole->sentence();
+    if (whole && (!whole->is_doubtful || whole->kind == ProblemKind::axes))
+      return whole->sentence();
   }
   return std::nullopt;
 }
@@ -98,8 +96,7 @@ tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured
 }  // namespace
 
 tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
-                                                   const DiagnosisOptions& options,
-                                                   NamingFor use) {
+                                                   const DiagnosisOptions& options, NamingFor use) {
   auto session = observations_of(measured);
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(measured))
@@ -117,14 +114,13 @@ tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
   if (naming.refusal) naming.stability.reset();
   const std::size_t named = a.decision.listed.size();
   naming.causes_given_law = name_given_law(naming.laws, calibrated_rules(), a);
-  if (naming.stability && a.decision.listed.size() != named) naming.stability = examine_stability(a);
+  if (naming.stability && a.decision.listed.size() != named)
+    naming.stability = examine_stability(a);
   return naming;
 }
 
-NamingAndPlainFit name_and_fit(const Measured& measured,
-                               const DiagnosisOptions& options,
-                               NamingFor use,
-                               JointFitOptions fit_options) {
+NamingAndPlainFit name_and_fit(const Measured& measured, const DiagnosisOptions& options,
+                               NamingFor use, JointFitOptions fit_options) {
   // One of the two reports progress.
   fit_options.progress = {};
   std::optional<tl::expected<Naming, DiagnosisFailure>> naming;

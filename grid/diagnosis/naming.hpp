@@ -35,9 +35,7 @@ struct NamingAndPlainFit {
   tl::expected<Naming, DiagnosisFailure> naming;
   tl::expected<JointFit, FitFailure> plain;
 };
-NamingAndPlainFit name_and_fit(const Measured& measured,
-                               const DiagnosisOptions& options,
-                               NamingFor use,
-                               JointFitOptions fit_options);
+NamingAndPlainFit name_and_fit(const Measured& measured, const DiagnosisOptions& options,
+                               NamingFor use, JointFitOptions fit_options);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -81,12 +81,10 @@ class PointCandidates {
   void add_revisits() {
     if (!own_.ordered()) return;
     const observation::Place& first = own_.places().front();
-    add(first.mark,
-        MeasurementKind::revisit,
+    add(first.mark, MeasurementKind::revisit,
         fmt::format("point {}, the first of the session, again", first.index + 1));
     const observation::Place& middle = own_.places()[own_.places().size() / 2];
-    add(middle.mark,
-        MeasurementKind::revisit,
+    add(middle.mark, MeasurementKind::revisit,
         fmt::format("point {} again, coming from the other side", middle.index + 1));
   }
 
@@ -161,10 +159,8 @@ class HoleCandidates {
   void add(HoleDistance distance) {
     if (is_measured(distance)) return;
     NextMeasurement next{MeasurementKind::distance,
-                         fmt::format("the distance {}", words_of(measured_, distance)),
-                         "",
-                         std::nullopt,
-                         measured_.tape.sigma_mm};
+                         fmt::format("the distance {}", words_of(measured_, distance)), "",
+                         std::nullopt, measured_.tape.sigma_mm};
     next.from = measured_.holes[distance.from].name;
     next.to = {distance.edge ? std::string(grid::name(*distance.edge))
                              : measured_.holes[distance.to].name};
@@ -214,10 +210,7 @@ class HoleCandidates {
     if (std::hypot(nearest.x_mm - place.x_mm, nearest.y_mm - place.y_mm) < kApartMm) return;
     const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};
     if (!can_be_cut(hole)) return;
-    Candidate candidate{{MeasurementKind::distance,
-                         "",
-                         "",
-                         model::identity_placement(place),
+    Candidate candidate{{MeasurementKind::distance, "", "", model::identity_placement(place),
                          measured_.tape.sigma_mm},
                         {},
                         1};
@@ -226,8 +219,8 @@ class HoleCandidates {
       set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);
     }
-    candidate.measurement.words = fmt::format(
-        "a new hole at {}, measured to {}", hole.name, fmt::join(candidate.measurement.to, ", "));
+    candidate.measurement.words = fmt::format("a new hole at {}, measured to {}", hole.name,
+                                              fmt::join(candidate.measurement.to, ", "));
     candidates_.push_back(std::move(candidate));
     set_.holes.push_back(hole);
   }

@@ -107,25 +107,20 @@ struct Next {
 };
 
 /// The prediction of future rows by a context's causes and a law's amplitudes.
-Eigen::MatrixXd columns_of(const Analysis& a,
-                           const Next& next,
-                           const RegressorSet& regressors,
+Eigen::MatrixXd columns_of(const Analysis& a, const Next& next, const RegressorSet& regressors,
                            const Eigen::MatrixXd& law) {
   const auto causes = std::ssize(regressors);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(next.system.e.size(), causes + law.cols());
   for (Eigen::Index k = 0; k < causes; ++k) {
     const Regressor& own = a.system.regressor(regressors[as_size(k)]);
-    if (const auto g = signature(next.session, a.state, next.system, own))
-      columns.col(k) = *g;
+    if (const auto g = signature(next.session, a.state, next.system, own)) columns.col(k) = *g;
   }
   columns.rightCols(law.cols()) = law;
   return columns;
 }
 
 /// `law` may be null.
-Alternative expected_with(const Analysis& a,
-                          const Next& next,
-                          const LawEvidence& evidence,
+Alternative expected_with(const Analysis& a, const Next& next, const LawEvidence& evidence,
                           const WeighedLaw* law) {
   Eigen::MatrixXd there(next.system.e.size(), 0);
   if (law != nullptr) there = law_columns(next.system, evidence.curves[law->curve], {law->at});

@@ -6,11 +6,8 @@
 
 namespace chaintrue::grid::diagnosis {
 
-NullDistribution draw_null(const SingleScore& score,
-                           const MarginalisedSystem& marginalised,
-                           NoiseSize noise,
-                           int draws,
-                           std::uint64_t seed) {
+NullDistribution draw_null(const SingleScore& score, const MarginalisedSystem& marginalised,
+                           NoiseSize noise, int draws, std::uint64_t seed) {
   constexpr std::uint64_t kStream = 61;
   constexpr int kBlock = 250;  // draws at a time
   Random random(seed, kStream);
@@ -30,7 +27,8 @@ NullDistribution draw_null(const SingleScore& score,
         e.col(draw) *= length / e.col(draw).norm();
     }
     const Eigen::VectorXd largest = score.largest(e);
-    std::copy(largest.begin(), largest.end(), result.largest.begin() + static_cast<std::ptrdiff_t>(k) * kBlock);
+    std::copy(largest.begin(), largest.end(),
+              result.largest.begin() + static_cast<std::ptrdiff_t>(k) * kBlock);
     e.resize(0, 0);
   });
   sort(result.largest);

@@ -20,8 +20,7 @@ namespace chaintrue::grid::diagnosis {
 /// product; a regressor of the wrong sign has no score.
 class SingleScore {
  public:
-  SingleScore(const RegressorSystem& system,
-              const MarginalisedSystem& marginalised,
+  SingleScore(const RegressorSystem& system, const MarginalisedSystem& marginalised,
               double noise_dof)
       : marginalised_(marginalised), dof_(noise_dof) {
     square_ = marginalised.g.squared_norms();
@@ -53,12 +52,8 @@ class SingleScore {
     double result = kNoScore;
     for (std::size_t i = 0; i < equations.columns.size(); ++i) {
       const auto at = as_index(i);
-      result = std::max(result,
-                        score(equations.columns[i],
-                              equations.gg(at, at),
-                              equations.ge(at),
-                              equations.ee,
-                              as_double(rows)));
+      result = std::max(result, score(equations.columns[i], equations.gg(at, at), equations.ge(at),
+                                      equations.ee, as_double(rows)));
     }
     return result;
   }
@@ -131,10 +126,7 @@ enum class NoiseSize { stated, unknown };
 
 /// For residuals like those of `marginalised`; of unknown size: as long as those, and projected on the
 /// settings in the same way.
-NullDistribution draw_null(const SingleScore& score,
-                           const MarginalisedSystem& marginalised,
-                           NoiseSize noise,
-                           int draws,
-                           std::uint64_t seed);
+NullDistribution draw_null(const SingleScore& score, const MarginalisedSystem& marginalised,
+                           NoiseSize noise, int draws, std::uint64_t seed);
 
 }  // namespace chaintrue::grid::diagnosis

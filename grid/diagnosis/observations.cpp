@@ -59,10 +59,7 @@ std::optional<std::string> contradiction(const Machine& machine,
       return fmt::format(
           "your reading of {} is {:.6g}, but the machine file has {:.6g}: {:.0f} sigma apart. "
           "Measure it again and correct whichever is wrong",
-          name(reading.what),
-          reading.value,
-          stated,
-          std::abs(reading.value - stated) / sigma);
+          name(reading.what), reading.value, stated, std::abs(reading.value - stated) / sigma);
     }
     for (std::size_t k = 0; k < i; ++k) {
       const ExtraReading& other = readings[k];
@@ -71,9 +68,7 @@ std::optional<std::string> contradiction(const Machine& machine,
       if (std::abs(reading.value - other.value) > kContradiction * both) {
         return fmt::format(
             "two readings of {} contradict each other: {:.6g} and {:.6g}, {:.0f} sigma apart",
-            name(reading.what),
-            other.value,
-            reading.value,
+            name(reading.what), other.value, reading.value,
             std::abs(reading.value - other.value) / both);
       }
     }
@@ -82,8 +77,7 @@ std::optional<std::string> contradiction(const Machine& machine,
 }
 
 /// From the scatter of the residuals within each group of repeats.
-std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
-                                            const MeasuredGrid& grid,
+std::optional<StatedNoise> noise_of_repeats(const Machine& stated, const MeasuredGrid& grid,
                                             const std::vector<LengthPoint>& points) {
   const model::ReadingModel model(stated);
   const StatedNoise usual;
@@ -100,8 +94,8 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
   }
   const auto found = scatter.noise();
   if (!found) return std::nullopt;
-  return StatedNoise{
-      found->factor * usual.length_mm, found->factor * usual.position_mm, found->dof};
+  return StatedNoise{found->factor * usual.length_mm, found->factor * usual.position_mm,
+                     found->dof};
 }
 
 /// Pairs of holes without a measured distance, the farthest apart first.
@@ -130,8 +124,7 @@ std::string too_few_distances(const MeasuredHoles& set) {
   std::string text = fmt::format(
       "{} distances are too few to name a cause: at least {} are needed. Nine holes and twenty "
       "distances are a good start",
-      set.distances.size(),
-      kFewestDistances);
+      set.distances.size(), kFewestDistances);
   if (!pairs.empty()) text += fmt::format(". Measure also {}", fmt::join(pairs, ", "));
   if (pairs.size() < missing) {
     text += fmt::format("{} {}",
@@ -161,9 +154,9 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   }
   if (!noise) {
     return failed(Reason::no_noise,
-                   "the accuracy of the points is unknown, and too few were measured twice to "
-                   "estimate it. Enter it (\"noise\" in the grid file, or --noise-length-mm, "
-                   "--noise-position-mm), or measure at least six points twice");
+                  "the accuracy of the points is unknown, and too few were measured twice to "
+                  "estimate it. Enter it (\"noise\" in the grid file, or --noise-length-mm, "
+                  "--noise-position-mm), or measure at least six points twice");
   }
   // Orders of different sessions are unrelated.
   const bool ordered = !so_far.ordered && all_of(grid.points, [](const MeasuredPoint& p) {
@@ -173,21 +166,15 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   std::vector<observation::Place> places;
   for (const LengthPoint& point : *lengths) {
     const std::size_t index = first_index + point.index;
-    places.push_back({index,
-                      fmt::format("{}", index + 1),
-                      point.mark,
-                      point.lengths,
-                      grid.points[point.index].order.value_or(0),
-                      point.commanded});
+    places.push_back({index, fmt::format("{}", index + 1), point.mark, point.lengths,
+                      grid.points[point.index].order.value_or(0), point.commanded});
   }
   std::optional<observation::SheetPrior> sheet;
   if (grid.sheet) sheet = {grid.sheet->shift_mm, 1e-3 * grid.sheet->rotation_mrad};
   return std::make_shared<const observation::ChainLengthReadings>(
-      std::move(places),
-      ordered,
+      std::move(places), ordered,
       observation::PointNoise{std::max(noise->length_mm, kFinestLengthNoiseMm), noise->position_mm},
-      noise->dof,
-      sheet);
+      noise->dof, sheet);
 }
 
 /// Eight points or eight distances; for both together, as many numbers as eight points give.
@@ -206,15 +193,12 @@ std::optional<std::string> too_few(const Measured& measured) {
     return fmt::format(
         "{} points and {} distances are too few to name a cause: a point counts as two "
         "readings, and {} readings are needed",
-        points,
-        distances,
-        2 * kFewestPoints);
+        points, distances, 2 * kFewestPoints);
   }
   return fmt::format(
       "{} points are too few to name a cause: at least {} are needed, 28 "
       "with six of them measured twice are a good start",
-      points,
-      kFewestPoints);
+      points, kFewestPoints);
 }
 
 }  // namespace
@@ -222,10 +206,10 @@ std::optional<std::string> too_few(const Measured& measured) {
 tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& measured) {
   if (!measured.machine()) {
     return failed(Reason::no_machine,
-                   measured.grids().empty()
-                       ? "the holes have no machine, so the chain lengths for their commands are "
-                         "unknown: add --machine M.json"
-                       : "a diagnosis needs your machine's dimensions: add --machine M.json");
+                  measured.grids().empty()
+                      ? "the holes have no machine, so the chain lengths for their commands are "
+                        "unknown: add --machine M.json"
+                      : "a diagnosis needs your machine's dimensions: add --machine M.json");
   }
   Machine stated = *measured.machine();
   std::vector<ExtraReading> readings;

@@ -14,9 +14,10 @@ namespace chaintrue::grid::diagnosis {
 
 struct DiagnosisOptions {
   std::uint64_t seed = 1;
-  bool improvement = true;  ///< error of the tool today; held-out errors, naming repeated in each fold
+  bool improvement =
+      true;  ///< error of the tool today; held-out errors, naming repeated in each fold
   bool next_measurements = true;
-  bool stability = true;       ///< the naming without each point, column and row of marks
+  bool stability = true;  ///< the naming without each point, column and row of marks
   /// Number of orders of visits that were tried: each may give a false alarm.
   int orders_tried = 1;
   bool order_assumed = false;  ///< the points' order is assumed, not recorded

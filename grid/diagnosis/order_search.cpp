@@ -61,8 +61,9 @@ Flags measured_again(const std::vector<MeasuredPoint>& points) {
   Flags again(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t k = 0; k < points.size() && !again[i]; ++k) {
-      again[i] = k != i && std::hypot(points[i].mark.x_mm - points[k].mark.x_mm,
-                                      points[i].mark.y_mm - points[k].mark.y_mm) <= kRepeatDistanceMm;
+      again[i] =
+          k != i && std::hypot(points[i].mark.x_mm - points[k].mark.x_mm,
+                               points[i].mark.y_mm - points[k].mark.y_mm) <= kRepeatDistanceMm;
     }
   }
   return again;
@@ -129,7 +130,8 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
     const bool at_a_visit = any_of(cause.effect->parameters, [](const auto& parameter) {
       return parameter.role == model::effects::ParameterRole::place;
     });
-    if (cause.effect->needs == model::effects::DataNeed::order && !at_a_visit) causes.push_back(cause);
+    if (cause.effect->needs == model::effects::DataNeed::order && !at_a_visit)
+      causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
   std::map<std::pair<std::size_t, std::size_t>, const NumberedUnit*> of;
@@ -149,9 +151,8 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
 double log_order_factor(const RegressorSystem& columns, const GivenModel& model, double noise_dof) {
   MarginalisedSystem reduced;
   const MarginalisedSystem& own = model.marginalised;
-  reduced.g = columns.g.mapped([&](const auto& all) {
-    return model.noise.half_solve(own.root.solve(own.kept.of(all)));
-  });
+  reduced.g = columns.g.mapped(
+      [&](const auto& all) { return model.noise.half_solve(own.root.solve(own.kept.of(all))); });
   const NoiseDensity noise(noise_dof, own.kept.size());
   const SingleScores scores = single_scores(columns, reduced, noise, model.e);
   return log_sum(scores.log_factor) + model.log_odds;
@@ -160,10 +161,11 @@ double log_order_factor(const RegressorSystem& columns, const GivenModel& model,
 }  // namespace
 
 std::string in_words(const VisitingOrderFound& found, const std::string& session) {
-  const std::string order = found.corner_known
-                                ? grid::in_words(found.order)
-                                : fmt::format("{} in {}", found.order.serpentine ? "there and back" : "one way",
-                                              found.order.rows ? "rows" : "columns");
+  const std::string order =
+      found.corner_known
+          ? grid::in_words(found.order)
+          : fmt::format("{} in {}", found.order.serpentine ? "there and back" : "one way",
+                        found.order.rows ? "rows" : "columns");
   return fmt::format(
       "The order in which the marks{} were visited was not recorded. The readings show that it "
       "was: {} ({}). If that is wrong, record the order, or give it with --assume-order.",
@@ -196,7 +198,8 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
   return result;
 }
 
-std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured, const DiagnosisOptions& options) {
+std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured,
+                                                      const DiagnosisOptions& options) {
   const auto first = grid_alone(measured);
   if (!first) return std::nullopt;
   auto session = observations_of(*first);
@@ -205,11 +208,11 @@ std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured, 
   return own ? find_visiting_order(*first, *own) : std::nullopt;
 }
 
-std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, const Analysis& analysis) {
+std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
+                                                      const Analysis& analysis) {
   const std::vector<double> probabilities = order_probabilities(measured, analysis);
   const std::vector<VisitingOrder> orders = line_by_line_orders();
-  const auto best =
-      as_size(max_element(probabilities) - probabilities.begin());
+  const auto best = as_size(max_element(probabilities) - probabilities.begin());
   VisitingOrderFound found{orders[best], probabilities[best], true};
   if (found.probability < kLeastModelShare) return std::nullopt;
   // Starting corners differ only in the few steps between lines, which repeated marks would change.

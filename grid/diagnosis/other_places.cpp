@@ -13,7 +13,8 @@ std::size_t chain_part(const ObservationSet& session) {
   return as_size(found - session.parts.data());
 }
 
-const observation::ChainLengthReadings& readings_of(const ObservationSet& session, std::size_t part) {
+const observation::ChainLengthReadings& readings_of(const ObservationSet& session,
+                                                    std::size_t part) {
   return dynamic_cast<const observation::ChainLengthReadings&>(*session.parts[part].observation);
 }
 
@@ -39,11 +40,10 @@ ObservationSet session_at(const Analysis& a, const std::vector<model::MarkPoint>
   }
   // These places are not visited: no order.
   return with_observations(
-      session,
-      {{std::make_shared<const observation::ChainLengthReadings>(
-            observation::ChainLengthReadings::in_given_order(
-                std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
-        part}});
+      session, {{std::make_shared<const observation::ChainLengthReadings>(
+                     observation::ChainLengthReadings::in_given_order(
+                         std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
+                 part}});
 }
 
 }  // namespace chaintrue::grid::diagnosis

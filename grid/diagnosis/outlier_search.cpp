@@ -132,9 +132,7 @@ class MeanShifts {
     const Eigen::Vector2d& d = *group.direction;
     const double own = precision_along(group);
     Eigen::VectorXd column = linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
-    linear::add_product(column,
-                        -1.0,
-                        taken(),
+    linear::add_product(column, -1.0, taken(),
                         linear::product(linear::transposed(taken().middleRows(group.at, 2)), d));
     u_ -= column * (d.dot(u_.segment<2>(group.at)) / own);
     log_det_ += std::log(own);
@@ -163,10 +161,8 @@ class MeanShifts {
   Eigen::Index count_ = 0;
 };
 
-MeanShifts under(MeanShifts shifts,
-                 const MarginalisedSystem& marginalised,
-                 const RegressorSystem& system,
-                 const RegressorSet& set) {
+MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
+                 const RegressorSystem& system, const RegressorSet& set) {
   for (const int k : set) {
     if (system.regressor(k).fixed) shifts.subtract(marginalised.g.col(k));
   }
@@ -243,11 +239,8 @@ void take_out(const FreeGroup& rejected, std::vector<FreeGroup>& free, Flags& ou
   free = std::move(left);
 }
 
-FoundSet search(MeanShifts shifts,
-                const RegressorSystem& system,
-                const MarginalisedSystem& marginalised,
-                std::vector<FreeGroup> free,
-                Flags outliers,
+FoundSet search(MeanShifts shifts, const RegressorSystem& system,
+                const MarginalisedSystem& marginalised, std::vector<FreeGroup> free, Flags outliers,
                 double log_prior) {
   const auto count = as_double(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
@@ -289,8 +282,7 @@ std::vector<OutlierGroup> groups_of(const RegressorSystem& system) {
 
 }  // namespace
 
-std::vector<Flags> outlier_sets(const RegressorSystem& system,
-                                const Flags& excluded,
+std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excluded,
                                 const std::vector<RegressorSet>& hypotheses) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   const std::vector<OutlierGroup> groups = groups_of(system);
@@ -300,12 +292,8 @@ std::vector<Flags> outlier_sets(const RegressorSystem& system,
   const MeanShifts nothing(marginalised, free);
   std::vector<FoundSet> found;
   for (const auto& set : hypotheses) {
-    FoundSet one = search(under(nothing, marginalised, system, set),
-                          system,
-                          marginalised,
-                          free,
-                          beforehand,
-                          log_prior(system, set, false));
+    FoundSet one = search(under(nothing, marginalised, system, set), system, marginalised, free,
+                          beforehand, log_prior(system, set, false));
     auto* same = find_where(found, [&](const FoundSet& f) { return f.outliers == one.outliers; });
     if (same == nullptr) {
       found.push_back(std::move(one));

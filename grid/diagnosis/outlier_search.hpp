@@ -24,8 +24,7 @@ namespace chaintrue::grid::diagnosis {
 /// A flag for each outlier group of the system, the most probable set first; groups of units that
 /// are excluded beforehand are flagged in all of them. Where a set takes all directions of some
 /// rows, all groups of these rows are flagged. `hypotheses` are sets of regressors.
-std::vector<Flags> outlier_sets(const RegressorSystem& system,
-                                const Flags& excluded,
+std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excluded,
                                 const std::vector<RegressorSet>& hypotheses);
 
 }  // namespace chaintrue::grid::diagnosis

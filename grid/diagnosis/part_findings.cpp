@@ -47,8 +47,8 @@ PartFinding finding_of(const Analysis& a, const PartPosterior& part) {
 }
 
 std::string_view quarter(double towards_rad) {
-  constexpr std::array<std::string_view, 8> kNames = {"right", "upper right", "top", "upper left",
-                                                      "left", "lower left", "bottom", "lower right"};
+  constexpr std::array<std::string_view, 8> kNames = {
+      "right", "upper right", "top", "upper left", "left", "lower left", "bottom", "lower right"};
   const long eighth = std::lround(towards_rad / (0.25 * std::numbers::pi));
   return kNames[as_size(eighth) % kNames.size()];
 }
@@ -112,8 +112,7 @@ std::string words_of_quarters(const Diagnosis& d) {
     const std::string least = percent(answer.least);
     const std::string most = percent(answer.most);
     sentences.push_back(fmt::format("Without the {} quarter of the bed {} ({}).",
-                                    fmt::join(answer.quarters, " or the "),
-                                    answer.words,
+                                    fmt::join(answer.quarters, " or the "), answer.words,
                                     least == most ? least : fmt::format("{} to {}", least, most)));
   }
   return fmt::format("{}", fmt::join(sentences, " "));
@@ -128,8 +127,10 @@ std::vector<std::string> words_of_sessions(const Diagnosis& d) {
     for (const PartFinding& session : d.sessions) {
       const Hypothesis& own = session.named[k];
       std::string words = fmt::format("{} ({})", session.session, percent(own.probability));
-      if (own.probability >= kHoldsInSession) with.push_back(std::move(words));
-      else if (own.probability <= 1.0 - kHoldsInSession) without.push_back(std::move(words));
+      if (own.probability >= kHoldsInSession)
+        with.push_back(std::move(words));
+      else if (own.probability <= 1.0 - kHoldsInSession)
+        without.push_back(std::move(words));
     }
     const Hypothesis& named = d.sessions.front().named[k];
     const std::string cause = cause_words(named);
@@ -137,9 +138,7 @@ std::vector<std::string> words_of_sessions(const Diagnosis& d) {
       result.push_back(fmt::format("Each session alone shows {}.", cause));
     } else if (!with.empty() && !without.empty()) {
       result.push_back(fmt::format("The sessions contradict each other: {} is in {}, not in {}.",
-                                   cause,
-                                   fmt::join(with, " and "),
-                                   fmt::join(without, " and ")));
+                                   cause, fmt::join(with, " and "), fmt::join(without, " and ")));
     }
   }
   return result;

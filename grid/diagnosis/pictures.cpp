@@ -64,11 +64,8 @@ PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size
   return p;
 }
 
-DistancePicture picture_of(const Analysis& a,
-                           const Residuals& residuals,
-                           const observation::TapeDistances& tape,
-                           std::size_t k,
-                           std::size_t u) {
+DistancePicture picture_of(const Analysis& a, const Residuals& residuals,
+                           const observation::TapeDistances& tape, std::size_t k, std::size_t u) {
   const MeasuredHoles& set = tape.set();
   const HoleDistance& distance = set.distances[k];
   const auto mm = [&](const Eigen::VectorXd& whitened) {
@@ -116,9 +113,8 @@ std::vector<HolePicture> hole_pictures(const Analysis& a) {
     const auto places = tape->placed(state.view(*part));
     for (std::size_t i = 0; i < tape->places().size(); ++i) {
       const observation::Place& hole = tape->places()[i];
-      found.emplace_back(
-          hole.index,
-          HolePicture{hole.name, hole.mark, places ? (*places)[i].mark : hole.mark});
+      found.emplace_back(hole.index,
+                         HolePicture{hole.name, hole.mark, places ? (*places)[i].mark : hole.mark});
     }
   }
   sort(found, [](const auto& x, const auto& y) { return x.first < y.first; });

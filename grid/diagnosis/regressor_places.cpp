@@ -11,7 +11,7 @@ using model::effects::PlaceVariable;
 
 namespace {
 
-constexpr int kPlaces = 24;    // of a knee or a phase: neighbours have a collinearity of 0.99
+constexpr int kPlaces = 24;  // of a knee or a phase: neighbours have a collinearity of 0.99
 
 /// The value that an effect's place is compared with, at one place of the tool.
 double compared(const SystemPlace& own, PlaceVariable variable, model::Side side) {
@@ -39,7 +39,8 @@ double compared(const SystemPlace& own, PlaceVariable variable, model::Side side
   }
 }
 
-std::vector<double> compared(const RegressorSystem& system, PlaceVariable variable, model::Side side) {
+std::vector<double> compared(const RegressorSystem& system, PlaceVariable variable,
+                             model::Side side) {
   std::vector<double> there;
   for (const SystemPlace& own : system.places) {
     if (variable != PlaceVariable::visit || own.ordered)
@@ -77,8 +78,7 @@ PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& pla
                                                              : PlaceVariable::angle;
 }
 
-std::vector<double> compared_at_places(const RegressorSystem& system,
-                                       PlaceVariable variable,
+std::vector<double> compared_at_places(const RegressorSystem& system, PlaceVariable variable,
                                        EffectSide side) {
   std::vector<double> there;
   if (side != EffectSide::right) there = compared(system, variable, model::Side::left);
@@ -96,8 +96,7 @@ std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId caus
     for (const SystemPlace& own : system.places) {
       if (own.ordered) result.push_back(own.order);
     }
-    if (!cause.effect->at_one_visit && !result.empty())
-      std::erase(result, *min_element(result));
+    if (!cause.effect->at_one_visit && !result.empty()) std::erase(result, *min_element(result));
     return result;
   }
   const PlaceVariable variable = variable_of_place(*cause.effect, place);

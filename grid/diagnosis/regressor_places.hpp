@@ -27,8 +27,7 @@ std::optional<PlaceGap> gap_about(const RegressorSystem& system, CauseId cause, 
 
 /// The variable's value at every place of the tool, for the chain of this side or of either.
 std::vector<double> compared_at_places(const RegressorSystem& system,
-                                       model::effects::PlaceVariable variable,
-                                       EffectSide side);
+                                       model::effects::PlaceVariable variable, EffectSide side);
 
 /// Places where an effect may set in: visits, phases of a turn, angles (or another variable of the
 /// place) between those of the places of the tool.

@@ -34,8 +34,7 @@ State with_effect(State state, CauseId cause, const std::vector<double>& values)
   return state;
 }
 
-std::vector<model::MachineProblem> problems_with_effect(const State& state,
-                                                        CauseId cause,
+std::vector<model::MachineProblem> problems_with_effect(const State& state, CauseId cause,
                                                         const std::vector<double>& values) {
   const model::AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
   if (state.mechanism) return state.mechanism->problems_of_effects({own});
@@ -58,9 +57,7 @@ std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const St
 bool is_of_readings(CauseId cause) { return cause.effect->station == Station::reading; }
 
 /// What an effect adds to the chains at a place, or to the written readings there.
-Eigen::Vector2d added_at(const SystemPlace& place,
-                         const model::Sprocket& sprocket,
-                         CauseId cause,
+Eigen::Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, CauseId cause,
                          const std::vector<double>& values) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   if (is_of_readings(cause) && !place.ordered) return mm;
@@ -76,9 +73,7 @@ Eigen::Vector2d added_at(const SystemPlace& place,
 
 /// The whitened column of an effect that is added to a chain or to the written reading: the poses
 /// are unchanged.
-Eigen::VectorXd added(const RegressorSystem& system,
-                      const model::Sprocket& sprocket,
-                      CauseId cause,
+Eigen::VectorXd added(const RegressorSystem& system, const model::Sprocket& sprocket, CauseId cause,
                       const std::vector<double>& values) {
   std::vector<Eigen::Vector2d> mm;
   for (const SystemPlace& place : system.places) {
@@ -245,17 +240,13 @@ Candidates candidates(const ObservationSet& session) {
   return result;
 }
 
-std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
-                                         const State& state,
-                                         const RegressorSystem& system,
-                                         const SizedCause& cause) {
+std::optional<Eigen::VectorXd> signature(const ObservationSet& session, const State& state,
+                                         const RegressorSystem& system, const SizedCause& cause) {
   return Signatures{session, state, system}(cause);
 }
 
-void add_regressors(const ObservationSet& session,
-                    const State& state,
-                    const std::vector<CauseId>& causes,
-                    const std::vector<SizedCause>& known,
+void add_regressors(const ObservationSet& session, const State& state,
+                    const std::vector<CauseId>& causes, const std::vector<SizedCause>& known,
                     RegressorSystem& system) {
   if (system.g.cols() == 0) system.g = RegressorColumns(session.rows);
   Builder builder(session, state, system);
@@ -263,10 +254,8 @@ void add_regressors(const ObservationSet& session,
   system.g.fit();
 }
 
-bool renew_regressors(const ObservationSet& session,
-                      const State& state,
-                      const std::vector<Regressor>& regressors,
-                      RegressorSystem& system) {
+bool renew_regressors(const ObservationSet& session, const State& state,
+                      const std::vector<Regressor>& regressors, RegressorSystem& system) {
   system.regressors.clear();
   system.g = RegressorColumns(session.rows);
   const ColumnOf column = Signatures{session, state, system};

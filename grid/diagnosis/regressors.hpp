@@ -25,23 +25,17 @@ Candidates candidates(const ObservationSet& session);
 
 /// Appends the regressors of all these causes. Known causes get secants at their sizes, and also at
 /// their places.
-void add_regressors(const ObservationSet& session,
-                    const State& state,
-                    const std::vector<CauseId>& causes,
-                    const std::vector<SizedCause>& known,
+void add_regressors(const ObservationSet& session, const State& state,
+                    const std::vector<CauseId>& causes, const std::vector<SizedCause>& known,
                     RegressorSystem& system);
 
 /// Recomputes regressors about another state, at their values. False if such a machine is invalid.
-bool renew_regressors(const ObservationSet& session,
-                      const State& state,
-                      const std::vector<Regressor>& regressors,
-                      RegressorSystem& system);
+bool renew_regressors(const ObservationSet& session, const State& state,
+                      const std::vector<Regressor>& regressors, RegressorSystem& system);
 
 /// The whitened column of a cause; empty if such a machine is invalid.
-std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
-                                         const State& state,
-                                         const RegressorSystem& system,
-                                         const SizedCause& cause);
+std::optional<Eigen::VectorXd> signature(const ObservationSet& session, const State& state,
+                                         const RegressorSystem& system, const SizedCause& cause);
 using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const SizedCause&)>;
 
 /// Appends a regressor with its power and range, from its column and one at a smaller size: nearby if

@@ -42,14 +42,11 @@ Reach reach(const RegressorSystem& system, const Regressor& own) {
 
 class Round {
  public:
-  Round(const ObservationSet& session,
-        const State& state,
-        const RegressorSystem& system,
-        MarginalisedSystem marginalised,
-        int discrepancy)
+  Round(const ObservationSet& session, const State& state, const RegressorSystem& system,
+        MarginalisedSystem marginalised, int discrepancy)
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
-    estimate_ = diagnosis::estimate(
-        system, marginalised_, numbers_below<int>(system.regressors.size()), discrepancy);
+    estimate_ = diagnosis::estimate(system, marginalised_,
+                                    numbers_below<int>(system.regressors.size()), discrepancy);
   }
   const Estimate& estimate() const { return estimate_; }
 
@@ -138,8 +135,8 @@ class Round {
     const auto without = [gram = linear::PivotedCholesky(linear::gram(others)),
                           others](Eigen::VectorXd v) {
       if (others.cols() > 0) {
-        linear::add_product(
-            v, -1.0, others, gram.solve(linear::product(linear::transposed(others), v)));
+        linear::add_product(v, -1.0, others,
+                            gram.solve(linear::product(linear::transposed(others), v)));
       }
       return v;
     };

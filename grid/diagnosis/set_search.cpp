@@ -21,11 +21,8 @@ double score_alone(const Regressor& regressor, double c, double square) {
 }
 
 /// Adds the places of each cause that explain most of `e`.
-void add_best(const RegressorSystem& system,
-              const Eigen::MatrixXd& g,
-              const Eigen::VectorXd& e,
-              std::size_t of_a_cause,
-              std::set<int>& chosen) {
+void add_best(const RegressorSystem& system, const Eigen::MatrixXd& g, const Eigen::VectorXd& e,
+              std::size_t of_a_cause, std::set<int>& chosen) {
   const Eigen::VectorXd c = linear::product(linear::transposed(g), e);
   const Eigen::VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
@@ -49,8 +46,7 @@ void add_best(const RegressorSystem& system,
 /// leading cause.
 RegressorSet best_of_each_cause(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
-                                const ComparisonOptions& options,
-                                std::size_t of_a_cause) {
+                                const ComparisonOptions& options, std::size_t of_a_cause) {
   std::set<int> chosen;
   const Eigen::MatrixXd all = marginalised.g.dense();
   add_best(system, all, marginalised.e, of_a_cause, chosen);
@@ -88,10 +84,8 @@ bool at_a_visit(const Regressor& d) {
 
 }  // namespace
 
-SetSearch::SetSearch(const RegressorSystem& system,
-                     MarginalisedSystem& marginalised,
-                     std::size_t number,
-                     const ComparisonOptions& options)
+SetSearch::SetSearch(const RegressorSystem& system, MarginalisedSystem& marginalised,
+                     std::size_t number, const ComparisonOptions& options)
     : system_(system),
       marginalised_(marginalised),
       options_(options),
@@ -101,8 +95,7 @@ SetSearch::SetSearch(const RegressorSystem& system,
 std::vector<CandidateModel> SetSearch::run() {
   const std::size_t few = options_.search.of_a_cause;
   equations_ = normal_equations(
-      system_,
-      marginalised_,
+      system_, marginalised_,
       few == 0 ? columns() : best_of_each_cause(system_, marginalised_, options_, few));
   if (few > 0) {
     search_by_beam(system_, equations_, -1, options_.search, collector_);
@@ -131,8 +124,8 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& ke
     RegressorSet& regressors = likeliest.emplace_back();
     for (const Eigen::Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
   }
-  kernel_weight = search_given_discrepancies(
-      system_, marginalised_, options_, equations_, likeliest, kernels, collector_);
+  kernel_weight = search_given_discrepancies(system_, marginalised_, options_, equations_,
+                                             likeliest, kernels, collector_);
   return collector_.take();
 }
 

@@ -15,9 +15,7 @@ class SetSearch {
  public:
   /// `number` is the marginalised system's in its comparison; all references must outlive the
   /// search.
-  SetSearch(const RegressorSystem& system,
-            MarginalisedSystem& marginalised,
-            std::size_t number,
+  SetSearch(const RegressorSystem& system, MarginalisedSystem& marginalised, std::size_t number,
             const ComparisonOptions& options);
 
   SetSearch(const SetSearch&) = delete;

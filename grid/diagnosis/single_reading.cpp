@@ -35,22 +35,16 @@ std::optional<MadeBy> made_by(const ObservationSet& session, const Stability& st
   return std::nullopt;
 }
 
-std::string refusal_words(const ObservationSet& session,
-                          const MadeBy& reading,
-                          const CauseId& cause,
-                          double probability) {
+std::string refusal_words(const ObservationSet& session, const MadeBy& reading,
+                          const CauseId& cause, double probability) {
   const bool point = reading.removal->what == Removal::What::point;
   const std::string what = point ? fmt::format("Point {}", reading.removal->index + 1)
                                  : "The" + name_of(session, reading.unit).substr(3);
   return fmt::format(
       "{} alone suggests a cause ({}, {:.0f} %); without it there is none. A lasting cause shows "
       "in more than one {}, so the {} was rejected: measure it again{}.",
-      what,
-      sized(cause, {}),
-      100.0 * probability,
-      point ? "point" : "distance",
-      point ? "point" : "distance",
-      point ? ", and once more next to it" : "");
+      what, sized(cause, {}), 100.0 * probability, point ? "point" : "distance",
+      point ? "point" : "distance", point ? ", and once more next to it" : "");
 }
 
 bool may_be_refused(const Analysis& a) {
@@ -70,10 +64,9 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   const CauseId cause = a.decision.classes[leader.index].front();
   Flags excluded(a.session.units.size(), false);
   excluded[reading->unit] = true;
-  a.comparison = compare_models(a.system,
-                                excluded,
-                                {.kernels = best_kernels(a.comparison),
-                                 .given_cause = a.options.given_cause});
+  a.comparison =
+      compare_models(a.system, excluded,
+                     {.kernels = best_kernels(a.comparison), .given_cause = a.options.given_cause});
   decide_by(calibrated_rules(), false, a);
   return refusal_words(a.session, *reading, cause, leader.probability);
 }

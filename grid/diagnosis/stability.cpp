@@ -32,8 +32,7 @@ const model::MarkPoint& mark_of(const ObservationSet& session, std::size_t unit)
 }
 
 /// Runs of points along a coordinate; empty if the marks are not in lines.
-std::vector<LeftOut> lines_along(const ObservationSet& session,
-                                 Removal::What what,
+std::vector<LeftOut> lines_along(const ObservationSet& session, Removal::What what,
                                  double model::MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
   Indices order = units_at_marks(session);

@@ -51,8 +51,7 @@ std::string place(const Diagnosis& diagnosis, const Removal& removal) {
 }
 
 /// "point 17", "points 3, 9 and 17", "the column of marks at x = 1200 mm".
-std::string named_places(const Diagnosis& diagnosis,
-                         const Kind& kind,
+std::string named_places(const Diagnosis& diagnosis, const Kind& kind,
                          const std::vector<const Removal*>& removals) {
   std::vector<std::string> places;
   for (const Removal* one : removals) {
@@ -113,16 +112,15 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
   const std::string which = joined(tried, "and", ", ");
   const std::string text =
-      changes == 0
-          ? fmt::format("Leaving out any of {} does not change the answer.", which)
-          : fmt::format("Of {}, each left out in turn, {} would change the answer.", which, changes);
+      changes == 0 ? fmt::format("Leaving out any of {} does not change the answer.", which)
+                   : fmt::format("Of {}, each left out in turn, {} would change the answer.", which,
+                                 changes);
   if (weakest->probability > kBeyondDoubt) return text;
-  return text + fmt::format(
-                    " It is least certain without {}: then {}, with all {} {}.",
-                    named_places(diagnosis, kind, {&*weakest}),
-                    percent(weakest->probability),
-                    diagnosis.observations == Observations::points ? "points" : "readings",
-                    percent(stability.probability));
+  return text + fmt::format(" It is least certain without {}: then {}, with all {} {}.",
+                            named_places(diagnosis, kind, {&*weakest}),
+                            percent(weakest->probability),
+                            diagnosis.observations == Observations::points ? "points" : "readings",
+                            percent(stability.probability));
 }
 
 std::string influence_in_words(const Diagnosis& diagnosis) {
@@ -136,12 +134,11 @@ std::string influence_in_words(const Diagnosis& diagnosis) {
       return any_of(points, [&](std::size_t point) { return lies_on(diagnosis, *removal, point); });
     });
     if (changes.empty()) continue;
-    text += fmt::format(" {} rests on {}{}: without {} {}.",
-                        diagnosis.causes.size() == 1 ? "The name" : "What is named",
-                        changes.size() == 1 ? "" : "each of ",
-                        named_places(diagnosis, kind, changes),
-                        changes.size() == 1 ? "it" : "the first of these",
-                        fate(*changes.front()));
+    text +=
+        fmt::format(" {} rests on {}{}: without {} {}.",
+                    diagnosis.causes.size() == 1 ? "The name" : "What is named",
+                    changes.size() == 1 ? "" : "each of ", named_places(diagnosis, kind, changes),
+                    changes.size() == 1 ? "it" : "the first of these", fate(*changes.front()));
   }
   return text;
 }

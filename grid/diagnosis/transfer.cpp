@@ -4,8 +4,8 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
-#include "grid/failed.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
+#include "grid/failed.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -25,14 +25,11 @@ Eigen::VectorXd placed(RegressorSystem system, const Eigen::VectorXd& left) {
 }
 
 /// Residuals of the second session with the first one's model, before placing its sheet.
-Eigen::VectorXd left_of(const Analysis& a,
-                        const Estimate& model,
-                        const ObservationSet& to,
-                        const State& state,
-                        const RegressorSystem& system) {
+Eigen::VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet& to,
+                        const State& state, const RegressorSystem& system) {
   const auto machine = std::ssize(model::kMachineSettings);
-  Eigen::VectorXd left =
-      system.e - linear::product(system.by_setting.leftCols(machine), model.setting_change.head(machine));
+  Eigen::VectorXd left = system.e - linear::product(system.by_setting.leftCols(machine),
+                                                    model.setting_change.head(machine));
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
     const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
@@ -63,12 +60,10 @@ Indices block_numbers(const ObservationSet& session) {
   return number;
 }
 
-HeldOut summary(const ObservationSet& to,
-                const RegressorSystem& system,
-                const Eigen::VectorXd& left,
-                std::uint64_t seed) {
-  return summarise(
-      errors_of_units(system, left, numbers_below(system.units.size())), block_numbers(to), seed);
+HeldOut summary(const ObservationSet& to, const RegressorSystem& system,
+                const Eigen::VectorXd& left, std::uint64_t seed) {
+  return summarise(errors_of_units(system, left, numbers_below(system.units.size())),
+                   block_numbers(to), seed);
 }
 
 }  // namespace
@@ -104,9 +99,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   }
   const auto predicted_by = [&](const RegressorSet& regressors, int discrepancy) {
     const Estimate model = estimate(a.system, marginalised_system(a), regressors, discrepancy);
-    return summary(*second,
-                   *system,
-                   placed(*system, left_of(a, model, *second, state, *system)),
+    return summary(*second, *system, placed(*system, left_of(a, model, *second, state, *system)),
                    options.seed);
   };
   Transfer result;

@@ -12,9 +12,9 @@
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(Enters enters) {
-  constexpr std::string_view kNames[] = {
-      "left", "right", "alike", "opposite", "x", "y", "mixed", "along", "outwards",
-      "tl", "tr", "bl", "br"};
+  constexpr std::string_view kNames[] = {"left", "right", "alike", "opposite", "x",
+                                         "y",    "mixed", "along", "outwards", "tl",
+                                         "tr",   "bl",    "br"};
   return kNames[static_cast<std::size_t>(enters)];
 }
 
@@ -75,7 +75,8 @@ Said said_of(const Analysis& a) {
   Said said;
   for (const CandidateModel& model : a.comparison.models) {
     if (model.discrepancy < 0) continue;
-    const DiscrepancyKernel& kernel = a.system.discrepancies->kernels[a.system.discrepancies->kernel_of(model.discrepancy)];
+    const DiscrepancyKernel& kernel =
+        a.system.discrepancies->kernels[a.system.discrepancies->kernel_of(model.discrepancy)];
     const double p = a.comparison.probability(model);
     said.of[argument_of(kernel)] += p;
     said.enters[entry_of(kernel)] += p;
@@ -169,8 +170,8 @@ Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream
   const Eigen::MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
   linear::add_product(z, -1.0, design, taken);
   if (shared > 0) {
-    linear::add_product(
-        z, 1.0, by_nuisance, taken.middleRows(a.system.by_setting.cols() - shared, shared));
+    linear::add_product(z, 1.0, by_nuisance,
+                        taken.middleRows(a.system.by_setting.cols() - shared, shared));
   }
   return z;
 }

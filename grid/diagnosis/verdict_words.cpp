@@ -37,10 +37,8 @@ const Vocabulary& vocabulary_of(const Diagnosis& d) {
 std::string alongside_words(const Diagnosis& d) {
   const std::string_view besides = vocabulary_of(d).besides;
   if (const Law* law = claimed_law(d)) {
-    return fmt::format(" {}, something that no listed cause explains: {}, {}.",
-                       besides,
-                       in_words(*law),
-                       percent(law->probability)) +
+    return fmt::format(" {}, something that no listed cause explains: {}, {}.", besides,
+                       in_words(*law), percent(law->probability)) +
            given_law_words(d);
   }
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
@@ -48,17 +46,13 @@ std::string alongside_words(const Diagnosis& d) {
   const std::string probability = percent(left.probability);
   if (d.belts) {
     return fmt::format(
-        " {}, the errors, {:.2f} mm per belt, form a pattern over about {:.0f} mm of the sheet that "
+        " {}, the errors, {:.2f} mm per belt, form a pattern over about {:.0f} mm of the sheet "
+        "that "
         "no listed cause explains: {}.",
-        besides,
-        left.rms_mm,
-        left.length_mm,
-        probability);
+        besides, left.rms_mm, left.length_mm, probability);
   }
   return fmt::format(
-      " {}, a pattern of {:.2f} mm{}, which no listed cause explains: {}.",
-      besides,
-      left.rms_mm,
+      " {}, a pattern of {:.2f} mm{}, which no listed cause explains: {}.", besides, left.rms_mm,
       left.follows.empty()
           ? fmt::format(" that changes over about {:.0f} mm of the bed", left.length_mm)
           : fmt::format(" that follows {}", coordinate_words(left.follows)),
@@ -70,20 +64,18 @@ std::string outlier_words(const Diagnosis& d, const Outlier& bad) {
     case Observations::drawing:
       return d.drawing->measures.at(bad.index).name;
     case Observations::distances:
-      return fmt::format(
-          "{} (read {})", words_of_ends(d.distances.at(bad.index)), off_in_words(bad.residual_mm));
+      return fmt::format("{} (read {})", words_of_ends(d.distances.at(bad.index)),
+                         off_in_words(bad.residual_mm));
     case Observations::belts:
       if (!bad.belt)
         return fmt::format("point {}, where more than one belt disagrees", bad.index + 1);
       return fmt::format(
-          "the {} belt at point {}{}, read {}",
-          model::words(*bad.belt),
-          bad.index + 1,
+          "the {} belt at point {}{}, read {}", model::words(*bad.belt), bad.index + 1,
           bad.or_belt ? fmt::format(", or the {} one", model::words(*bad.or_belt)) : "",
           off_in_words(bad.residual_mm));
     default:
-      return fmt::format(
-          "{}{}", d.observations == Observations::both ? "point " : "", bad.index + 1);
+      return fmt::format("{}{}", d.observations == Observations::both ? "point " : "",
+                         bad.index + 1);
   }
 }
 
@@ -97,21 +89,17 @@ std::string causes_in_words(const Diagnosis& d) {
   std::string text;
   if (d.verdict == Verdict::named) {
     const Cause& cause = d.causes.front();
-    text = fmt::format("Most likely {}: probability {}.",
-                       sized(cause.cause, cause.parameters),
+    text = fmt::format("Most likely {}: probability {}.", sized(cause.cause, cause.parameters),
                        percent(cause.probability));
     for (const SameCause& other : cause.same_as) {
       text += fmt::format(
           " {} distinguish it from this: "
           "{}.",
-          words.undecided,
-          sized(other.cause, other.parameters));
+          words.undecided, sized(other.cause, other.parameters));
     }
   } else if (d.verdict == Verdict::named_set) {
-    text = fmt::format("One of {} causes that these {} do not distinguish: {}.",
-                       parts.size(),
-                       words.readings,
-                       joined(parts, "or"));
+    text = fmt::format("One of {} causes that these {} do not distinguish: {}.", parts.size(),
+                       words.readings, joined(parts, "or"));
   } else if (d.verdict == Verdict::several_causes) {
     text = fmt::format("{} causes act together: {}.", parts.size(), joined(parts, "and"));
   } else {
@@ -125,9 +113,7 @@ std::string claimed_law_in_words(const Diagnosis& d) {
   if (law == nullptr) return "";
   return fmt::format(
              "The {} follow a law that no cause in the catalogue has: {}, {}. On average it {}.",
-             vocabulary_of(d).readings,
-             in_words(*law),
-             percent(law->probability),
+             vocabulary_of(d).readings, in_words(*law), percent(law->probability),
              average_in_words(*law, d.observations)) +
          given_law_words(d);
 }
@@ -141,11 +127,8 @@ std::vector<std::string> outliers_in_words(const Diagnosis& d) {
 std::string only_outliers_in_words(const Diagnosis& d) {
   const Vocabulary& words = vocabulary_of(d);
   return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the {} fits.",
-                     d.outliers.size(),
-                     words.one_each,
-                     words.bad,
-                     joined(outliers_in_words(d), "and"),
-                     d.outliers.size() == 1 ? "it" : "them",
+                     d.outliers.size(), words.one_each, words.bad,
+                     joined(outliers_in_words(d), "and"), d.outliers.size() == 1 ? "it" : "them",
                      words.whole);
 }
 
@@ -160,14 +143,11 @@ std::string_view aim_of(const Diagnosis& d) {
   return d.causes.empty() ? "one explanation alone" : "a single name";
 }
 
-std::string next_in_words(const Diagnosis& d,
-                          std::string_view first,
+std::string next_in_words(const Diagnosis& d, std::string_view first,
                           const std::vector<NextMeasurement>& all) {
-  return fmt::format("Measure next: {}{}. All of it raises the chance of {} to {}.",
-                     first,
+  return fmt::format("Measure next: {}{}. All of it raises the chance of {} to {}.", first,
                      all.size() > 1 ? fmt::format(", and {} more below", all.size() - 1) : "",
-                     aim_of(d),
-                     percent(all.back().raises_probability_to));
+                     aim_of(d), percent(all.back().raises_probability_to));
 }
 
 std::string not_proved_in_words(const Diagnosis& d) {

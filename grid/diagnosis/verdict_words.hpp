@@ -27,8 +27,7 @@ std::string only_outliers_in_words(const Diagnosis& diagnosis);
 void say_remedies(Diagnosis& diagnosis);
 
 /// "Measure next: `first`, and 3 more below. All of it raises the chance of a single name to 96 %."
-std::string next_in_words(const Diagnosis& diagnosis,
-                          std::string_view first,
+std::string next_in_words(const Diagnosis& diagnosis, std::string_view first,
                           const std::vector<NextMeasurement>& all);
 
 /// "one explanation alone" or "a single name".

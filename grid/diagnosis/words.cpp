@@ -21,17 +21,14 @@ std::string improvement_words(const Diagnosis& d) {
         " Correcting for it does not improve {}: left-out readings are predicted to {:.2f} mm with "
         "and without it, and the scatter of the readings is {:.2f} mm. The machine is therefore "
         "left unchanged.",
-        speaks_of_distances(d) ? "distances" : "the tool",
-        d.improvement->calibrated.rms_mm,
+        speaks_of_distances(d) ? "distances" : "the tool", d.improvement->calibrated.rms_mm,
         d.improvement->noise_floor_mm);
   }
   return fmt::format(
       " Correcting for it reduces the {} error at left-out readings from {:.2f} to {:.2f} mm; the "
       "scatter of the readings is {:.2f} mm.",
-      speaks_of_distances(d) ? "distances'" : "tool's",
-      d.improvement->calibrated.rms_mm,
-      d.improvement->extended.rms_mm,
-      d.improvement->noise_floor_mm);
+      speaks_of_distances(d) ? "distances'" : "tool's", d.improvement->calibrated.rms_mm,
+      d.improvement->extended.rms_mm, d.improvement->noise_floor_mm);
 }
 
 std::string assumed_words(const Diagnosis& d) {
@@ -52,8 +49,7 @@ std::string unknown_words(const Diagnosis& d) {
             "explains it";
   if (!d.left_over.follows.empty()) {
     text += fmt::format("; it follows {} best ({:.0f} % of it)",
-                        coordinate_words(d.left_over.follows),
-                        100.0 * d.left_over.share);
+                        coordinate_words(d.left_over.follows), 100.0 * d.left_over.share);
   }
   return text + ".";
 }
@@ -65,12 +61,8 @@ std::vector<std::string> settings_off(const Diagnosis& d) {
   for (const DrawnSetting& own : d.drawing->settings) {
     if (!own.off) continue;
     const NameAndUnit words = parameter_words(own.name);
-    off.push_back(fmt::format("{} ({:.2f} {} set, {:.2f} +- {:.2f} found)",
-                              words.name,
-                              own.set,
-                              words.unit,
-                              own.found,
-                              own.sigma));
+    off.push_back(fmt::format("{} ({:.2f} {} set, {:.2f} +- {:.2f} found)", words.name, own.set,
+                              words.unit, own.found, own.sigma));
   }
   return off;
 }
@@ -78,13 +70,10 @@ std::vector<std::string> settings_off(const Diagnosis& d) {
 std::string bad_words(const Diagnosis& d) {
   const std::vector<std::string> off = settings_off(d);
   if (off.empty()) return only_outliers_in_words(d);
-  return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.",
-                     d.outliers.size(),
-                     name(d.observations),
-                     joined(outliers_in_words(d), "and"),
+  return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.", d.outliers.size(),
+                     name(d.observations), joined(outliers_in_words(d), "and"),
                      d.outliers.size() == 1 ? "it" : "them",
-                     off.size() == 1 ? "a setting is" : "settings are",
-                     joined(off, "and"));
+                     off.size() == 1 ? "a setting is" : "settings are", joined(off, "and"));
 }
 
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
@@ -92,17 +81,13 @@ std::string nothing_words(const Diagnosis& d, std::size_t units) {
     return fmt::format(
         "{} off, and nothing else is wrong: {}. With the numbers found, the {} {} agree to "
         "within the scatter of the readings.",
-        off.size() == 1 ? "A setting is" : "Settings are",
-        joined(off, "and"),
-        units,
+        off.size() == 1 ? "A setting is" : "Settings are", joined(off, "and"), units,
         name(d.observations));
   }
   std::string text = fmt::format(
       "Nothing is wrong apart from the settings: the remaining error {} the {} {} is within the "
       "scatter of the readings.",
-      d.observations == Observations::points ? "at" : "of",
-      units,
-      name(d.observations));
+      d.observations == Observations::points ? "at" : "of", units, name(d.observations));
   if (d.family_wise_p < 0.05) {
     text += fmt::format(
         " Chance alone makes the strongest effect look as strong in {:.0f} of 100 "
@@ -130,9 +115,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
       return fmt::format(
           "The {} scatter {:.1f} times as much as you entered, without a pattern: check the tape, "
           "the {} and play in the sled.",
-          name(d.observations),
-          d.noise_factor,
-          speaks_of_distances(d) ? "drill" : "marking");
+          name(d.observations), d.noise_factor, speaks_of_distances(d) ? "drill" : "marking");
     case Verdict::outliers:
       return bad_words(d);
     case Verdict::nothing_found:
@@ -178,18 +161,16 @@ void advise(Diagnosis& d) {
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off) continue;
     add_if_room(fmt::format("Check {}: the machine file has {:.2f}, but {:.2f} fits the {}.",
-                            model::name(s.setting),
-                            s.stated,
-                            s.calibrated,
-                            name(d.observations)));
+                            model::name(s.setting), s.stated, s.calibrated, name(d.observations)));
   }
   if (claimed_law(d) != nullptr) {
-    add_if_room(d.unexplained->causes_given_law.empty()
-                    ? "Write the law to a file (chaintrue diagnose --law), measure other points, and "
-                      "diagnose these with it (--effects) to confirm it or rule it out."
-                    : "Write the law to a file (chaintrue diagnose --law) and diagnose these "
-                      "readings again with it (--effects): the machine file then has the causes "
-                      "found together with it.");
+    add_if_room(
+        d.unexplained->causes_given_law.empty()
+            ? "Write the law to a file (chaintrue diagnose --law), measure other points, and "
+              "diagnose these with it (--effects) to confirm it or rule it out."
+            : "Write the law to a file (chaintrue diagnose --law) and diagnose these "
+              "readings again with it (--effects): the machine file then has the causes "
+              "found together with it.");
   } else if (d.verdict == Verdict::model_discrepancy && steps.size() < 3) {
     steps.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a repeating pattern, whatever its "

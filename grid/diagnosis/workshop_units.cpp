@@ -37,19 +37,16 @@ constexpr UnitOfEffect kUnitsOfEffects[] = {
     {"sled_width", {"offset_mm", 1.0, "{} mm wider", "{} mm narrower"}},
     {"sled_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
     {"sled_cg", {"offset_mm", 1.0, "{} mm lower", "{} mm higher"}},
-    {"belt_stretch",
-     {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
+    {"belt_stretch", {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
     {"belt_scale", {"scale", 100.0, "{} % more belt per turn", "{} % less belt per turn"}},
     {"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
     {"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
     {"pen_off_centre", {"offset_mm", 1.0, "{} mm to the right", "{} mm to the left"}},
     {"servo_arm", {"offset_mm", 1.0, "{} mm to the right", "{} mm to the left"}},
     {"gondola_width", {"offset_mm", 1.0, "{} mm wider", "{} mm narrower"}},
-    {"standoff",
-     {"offset_mm", 1.0, "{} mm farther from the wall", "{} mm closer to the wall"}},
+    {"standoff", {"offset_mm", 1.0, "{} mm farther from the wall", "{} mm closer to the wall"}},
     {"gondola_mass", {"relative", 100.0, "{} % heavier", "{} % lighter"}},
-    {"cord_weight",
-     {"more_g_per_m", 1.0, "{} g per metre heavier", "{} g per metre lighter"}},
+    {"cord_weight", {"more_g_per_m", 1.0, "{} g per metre heavier", "{} g per metre lighter"}},
     {"pen_friction", {"force_n", 1.0, "{} N"}},
     {"spool_layers", {"growth_mm_per_m2", 1.0, "growth {} mm per square metre"}},
 };
@@ -65,9 +62,7 @@ constexpr Unit kUnits[] = {
     {"force_n", 1.0, "{} N to the right", "{} N to the left"},
     {"offset_mm", 1.0, "radius {} mm larger", "radius {} mm smaller"},
     {"slope_mm_per_rad", 1.0 / kDegrees, "{} mm per degree"},
-    {"knee_rad",
-     kDegrees,
-     "sets in at {} degrees below the horizontal",
+    {"knee_rad", kDegrees, "sets in at {} degrees below the horizontal",
      "sets in at {} degrees above the horizontal"},
     {"phase_rad", kDegrees, "phase {} degrees"},
     {"rate_mm_per_visit", 1.0, "{} mm per visit"},
@@ -90,8 +85,9 @@ const Unit* unit_for(const model::effects::Effect& effect, std::string_view para
   const auto* own = find_where(kUnitsOfEffects, [&](const UnitOfEffect& one) {
     return one.effect == effect.id && one.unit.parameter == parameter;
   });
-  return own != nullptr ? &own->unit
-                        : find_where(kUnits, [&](const Unit& one) { return one.parameter == parameter; });
+  return own != nullptr
+             ? &own->unit
+             : find_where(kUnits, [&](const Unit& one) { return one.parameter == parameter; });
 }
 
 /// Rounded to two digits.
@@ -129,12 +125,11 @@ std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& est
   const bool reversed = estimate.value < 0.0 && !unit->negative.empty();
   const double value = reversed ? -estimate.value : estimate.value;
   const bool is_one = !unit->one.empty() && std::abs(value) == 1.0;
-  return fmt::format(
-      fmt::runtime(reversed ? unit->negative
-                   : is_one ? unit->one
-                            : unit->words),
-      whole ? fmt::format("{:g}", value)
-            : with_sigma(unit->factor * value, unit->factor * estimate.sigma));
+  return fmt::format(fmt::runtime(reversed ? unit->negative
+                                  : is_one ? unit->one
+                                           : unit->words),
+                     whole ? fmt::format("{:g}", value)
+                           : with_sigma(unit->factor * value, unit->factor * estimate.sigma));
 }
 
 std::string sizes_in_words(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
@@ -153,8 +148,8 @@ std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& pa
 }
 
 std::string off_in_words(double residual_mm) {
-  return fmt::format(
-      "{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
+  return fmt::format("{:.1f} mm too {}", std::abs(residual_mm),
+                     residual_mm > 0.0 ? "long" : "short");
 }
 
 std::string coordinate_words(std::string_view coordinate) {
@@ -190,8 +185,7 @@ std::string side_words(const CauseId& cause) {
   return std::string(kWords[static_cast<std::size_t>(cause.side)]);
 }
 
-std::string joined(const std::vector<std::string>& parts,
-                   std::string_view last,
+std::string joined(const std::vector<std::string>& parts, std::string_view last,
                    std::string_view between) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -237,7 +231,8 @@ std::string reading_words(ReadingOf what, std::string_view side) {
       break;
   }
   return fmt::format(
-      "the error of the tape or the printed sheet per metre{}: hold a good tape against two metres of "
+      "the error of the tape or the printed sheet per metre{}: hold a good tape against two metres "
+      "of "
       "it",
       side == "x" || side == "y" ? fmt::format(" along {}", side) : "");
 }

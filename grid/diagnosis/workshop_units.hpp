@@ -43,8 +43,7 @@ std::vector<std::string> remedies(const std::vector<Cause>& causes);
 std::string percent(double probability);
 
 /// "a; b and c": `last` comes before the last one.
-std::string joined(const std::vector<std::string>& parts,
-                   std::string_view last,
+std::string joined(const std::vector<std::string>& parts, std::string_view last,
                    std::string_view between = "; ");
 
 /// "the distance between the motors' axes, with a tape" for motor_spacing_mm.

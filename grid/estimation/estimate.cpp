@@ -38,12 +38,9 @@ std::string words_of(const std::array<SessionZero, 2>& zeros) {
   for (const model::Side side : model::kSides) {
     const SessionZero& zero = zeros[as_size(row_of(side))];
     if (!(std::abs(zero.mm) > kSpokenOf * zero.sigma_mm)) continue;
-    words += fmt::format("{}{} chain {:.1f} +- {:.1f} mm {}",
-                         words.empty() ? "" : ", ",
-                         side == model::Side::left ? "left" : "right",
-                         std::abs(zero.mm),
-                         zero.sigma_mm,
-                         zero.mm > 0.0 ? "more" : "less");
+    words += fmt::format("{}{} chain {:.1f} +- {:.1f} mm {}", words.empty() ? "" : ", ",
+                         side == model::Side::left ? "left" : "right", std::abs(zero.mm),
+                         zero.sigma_mm, zero.mm > 0.0 ? "more" : "less");
   }
   return words;
 }

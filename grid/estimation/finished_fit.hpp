@@ -16,8 +16,7 @@
 namespace chaintrue::grid::estimation {
 
 /// The part of a map's covariance that the places observe, and the part that keeps its prior.
-inline Eigen::MatrixXd map_covariance(const JointProblem& problem,
-                                      const interp::PenalisedFit& fit,
+inline Eigen::MatrixXd map_covariance(const JointProblem& problem, const interp::PenalisedFit& fit,
                                       const FitColumns& columns) {
   const Unknowns& unknowns = problem.unknowns();
   const ObservedSubspace* observed = problem.observed();

@@ -13,8 +13,7 @@
 
 namespace chaintrue::grid::estimation {
 
-inline void add_weighted_rows(const JointProblem& joint,
-                              const Eigen::VectorXd& weights,
+inline void add_weighted_rows(const JointProblem& joint, const Eigen::VectorXd& weights,
                               interp::PenalisedProblem& problem) {
   if (joint.local() != nullptr) {
     joint.local()->add_rows(joint.response(), weights, problem);
@@ -49,8 +48,8 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
   std::vector<Eigen::Index> of_noise;
   for (const ObservationPart& part : set.parts) {
     const auto& columns = part.nuisance_columns;
-    of_noise.insert(
-        of_noise.end(), columns.end() - part.observation->nuisances_of_noise(), columns.end());
+    of_noise.insert(of_noise.end(), columns.end() - part.observation->nuisances_of_noise(),
+                    columns.end());
   }
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::ssize(of_noise), unknowns.total());
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
@@ -76,8 +75,7 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
   problem.prior_mean.head(parameters) = linear::PivotedCholesky(of_machine).solve(pull);
 }
 
-inline void add_surface_prior(const JointProblem& joint,
-                              const Eigen::VectorXd& weights,
+inline void add_surface_prior(const JointProblem& joint, const Eigen::VectorXd& weights,
                               interp::PenalisedProblem& problem) {
   const Unknowns& unknowns = joint.unknowns();
   const ObservedSubspace& observed = *joint.observed();

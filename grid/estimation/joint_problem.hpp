@@ -45,8 +45,8 @@ class JointProblem {
         basis_(basis_for(input, has_surface)) {
     const std::size_t lengths = set_.mechanism->lengths().size();
     if (has_surface && lengths != 2) {
-      throw precondition(
-          "a surface corrects two lengths, not the {} of {}", lengths, set_.mechanism->kind());
+      throw precondition("a surface corrects two lengths, not the {} of {}", lengths,
+                         set_.mechanism->kind());
     }
     unknowns_.of_set = set_.stated_value.size();
     unknowns_.scales = lengths == 2 ? 2 : 0;
@@ -65,12 +65,8 @@ class JointProblem {
     const observation::Observation& readings = *input_.observations[failure.place.observation];
     const observation::Place& there = readings.places()[failure.place.place];
     return {EstimationFailure::Reason::place_unreachable,
-            fmt::format("{} {} at ({:.1f}, {:.1f}): {}",
-                        readings.kind().place,
-                        there.name,
-                        there.mark.x_mm,
-                        there.mark.y_mm,
-                        failure.sentence())};
+            fmt::format("{} {} at ({:.1f}, {:.1f}): {}", readings.kind().place, there.name,
+                        there.mark.x_mm, there.mark.y_mm, failure.sentence())};
   }
 
   /// Fails if the machine has no pose at a place.
@@ -233,8 +229,7 @@ class JointProblem {
   }
 
   /// e f + s at the state.
-  Eigen::Vector2d correction_at(std::size_t place,
-                                const SystemPlace& at,
+  Eigen::Vector2d correction_at(std::size_t place, const SystemPlace& at,
                                 const State& state) const {
     const model::ChainLengths own = at.state.reading.lengths;
     const model::ChainLengths corrected =
@@ -268,11 +263,8 @@ class JointProblem {
   /// Adds a chain's length and its surface at a place to rows, `by_chain` being their derivatives by
   /// the chain.
   template <class ByChain, class Rows>
-  void add_chain(std::size_t place,
-                 const SystemPlace& at,
-                 model::Side side,
-                 const ByChain& by_chain,
-                 Rows rows) const {
+  void add_chain(std::size_t place, const SystemPlace& at, model::Side side,
+                 const ByChain& by_chain, Rows rows) const {
     rows.col(unknowns_.scale(side)) += by_chain * at.state.reading.lengths[side];
     if (!has_surface_) return;
     const auto row = as_index(place);
@@ -283,11 +275,8 @@ class JointProblem {
   }
 
   /// The scales' and the surface's columns of a unit.
-  void add_chain_columns(const LinearisedSystem& system,
-                         const SystemUnit& unit,
-                         const State& state,
-                         Eigen::MatrixXd& design,
-                         Eigen::VectorXd& response) const {
+  void add_chain_columns(const LinearisedSystem& system, const SystemUnit& unit, const State& state,
+                         Eigen::MatrixXd& design, Eigen::VectorXd& response) const {
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
       for (const model::Side side : model::kSides) {
@@ -301,17 +290,14 @@ class JointProblem {
   }
 
   /// d(corrected lengths at a mark)/d(unknowns), 2 x total.
-  Eigen::MatrixXd lengths_by_unknown(std::size_t place,
-                                     const SystemPlace& at,
+  Eigen::MatrixXd lengths_by_unknown(std::size_t place, const SystemPlace& at,
                                      const ObservedFrom& from) const {
     const ObservationPart& part = set_.parts[at.observation];
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_.total());
     rows(Eigen::all, set_.columns_of(part)) =
         at.state.by_length.asDiagonal() *
         observation::lengths_by_setting(
-            from.view,
-            at.state.reading,
-            at.state.mark,
+            from.view, at.state.reading, at.state.mark,
             observation::settings_in(observation::columns_of(*part.observation)));
     for (const model::Side side : model::kSides) {
       const Eigen::Matrix<double, 1, 1> one(1.0);
@@ -321,8 +307,7 @@ class JointProblem {
   }
 
   void eliminate_free_directions(const LinearisedSystem& system,
-                                 const std::vector<ObservedFrom>& from,
-                                 const State& state) {
+                                 const std::vector<ObservedFrom>& from, const State& state) {
     free_ = {};
     laid_marks_.clear();
     for (std::size_t k = 0; k < set_.parts.size(); ++k) {

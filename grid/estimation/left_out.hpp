@@ -26,8 +26,7 @@ namespace chaintrue::grid::estimation {
 /// A fit of a problem with these weights. All must outlive this.
 class LeftOut {
  public:
-  LeftOut(const JointProblem& problem,
-          const interp::PenalisedFit& fit,
+  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit,
           const Eigen::VectorXd& weights)
       : problem_(problem), fit_(fit), weights_(weights) {}
   /// Call first if all units are needed: X C X' of all takes a fraction of the time.
@@ -45,9 +44,9 @@ class LeftOut {
     if (by_root_.size() > 0) return;
     const linear::Cholesky factor(fit_.covariance);
     // Positive up to rounding.
-    by_root_ = linear::product(
-        problem_.design(),
-        factor.is_positive_definite() ? factor.lower() : linear::covariance_root(fit_.covariance));
+    by_root_ = linear::product(problem_.design(), factor.is_positive_definite()
+                                                      ? factor.lower()
+                                                      : linear::covariance_root(fit_.covariance));
   }
 
   struct Conditioned {
@@ -220,8 +219,7 @@ struct Shift : ReadingShift {
   observation::UnitReading at;
 };
 /// Among the rejected readings, or among the others.
-inline std::vector<Shift> shifts(const JointProblem& problem,
-                                 const interp::PenalisedFit& fit,
+inline std::vector<Shift> shifts(const JointProblem& problem, const interp::PenalisedFit& fit,
                                  bool of_rejected) {
   std::vector<Shift> all;
   const Eigen::VectorXd residual = problem.response() - problem.design() * fit.coefficients;

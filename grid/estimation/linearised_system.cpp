@@ -9,29 +9,19 @@ namespace {
 using observation::Linearisation;
 using observation::Observation;
 
-void add_places(const ObservationSet& set,
-                std::size_t number,
-                const Linearisation& line,
+void add_places(const ObservationSet& set, std::size_t number, const Linearisation& line,
                 LinearisedSystem& system) {
   const ObservationPart& part = set.parts[number];
   for (std::size_t i = 0; i < line.places.size(); ++i) {
     const NumberedPlace& place = set.places[part.first_place + i];
-    system.places.push_back({number,
-                             i,
-                             line.places[i],
-                             place.mark,
-                             place.order,
-                             part.reads_chains() && part.observation->ordered(),
-                             set.stated.bed});
+    system.places.push_back({number, i, line.places[i], place.mark, place.order,
+                             part.reads_chains() && part.observation->ordered(), set.stated.bed});
   }
 }
 
 /// `predicted` is f.
-void add_units(const ObservationSet& set,
-               std::size_t number,
-               const Linearisation& line,
-               const Eigen::VectorXd& predicted,
-               const Eigen::VectorXd& settings,
+void add_units(const ObservationSet& set, std::size_t number, const Linearisation& line,
+               const Eigen::VectorXd& predicted, const Eigen::VectorXd& settings,
                LinearisedSystem& system) {
   const ObservationPart& part = set.parts[number];
   const Observation& observation = *part.observation;

@@ -98,8 +98,7 @@ using UnreachablePlace = Failure<model::MechanismReason, PlaceOfObservation>;
 
 /// Precondition: `from` has one entry for each observation.
 [[nodiscard]] tl::expected<LinearisedSystem, UnreachablePlace> linearise(
-    const ObservationSet& set,
-    const std::vector<ObservedFrom>& from,
+    const ObservationSet& set, const std::vector<ObservedFrom>& from,
     Prediction prediction = Prediction::place_by_place);
 
 /// All n rows, from the readings' units to those of noise.

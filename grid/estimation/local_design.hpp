@@ -29,12 +29,9 @@ namespace chaintrue::grid::estimation {
 class LocalDesign {
  public:
   /// `marks` are the places of all units, in the surface's frame.
-  LocalDesign(const Eigen::MatrixXd& design,
-              const std::vector<SystemUnit>& units,
-              const Unknowns& unknowns,
-              const ObservedSubspace& observed,
-              const interp::BsplineBasis& basis,
-              const std::vector<model::MarkPoint>& marks)
+  LocalDesign(const Eigen::MatrixXd& design, const std::vector<SystemUnit>& units,
+              const Unknowns& unknowns, const ObservedSubspace& observed,
+              const interp::BsplineBasis& basis, const std::vector<model::MarkPoint>& marks)
       : units_(units), rows_(as_size(design.rows())) {
     const Eigen::Index penalised = observed.penalised.cols();
     const Eigen::Index first_bend = unknowns.first_penalised_of(model::Side::left);
@@ -48,9 +45,8 @@ class LocalDesign {
       columns.push_back(k);
     }
     for (const model::Side side : model::kSides) {
-      to_unknowns_.block(
-          splines(side), unknowns.first_penalised_of(side), basis.size(), penalised) =
-          observed.penalised;
+      to_unknowns_.block(splines(side), unknowns.first_penalised_of(side), basis.size(),
+                         penalised) = observed.penalised;
     }
     for (Eigen::Index k = 0; k < plain; ++k) {
       const auto column = design.col(columns[as_size(k)]);
@@ -77,8 +73,7 @@ class LocalDesign {
   static constexpr Eigen::Index kRowsForEachUnknown = 4;
 
   /// Adds the rows of positive weight by [X y]' w [X y]; a weight for each unit.
-  void add_rows(const Eigen::VectorXd& response,
-                const Eigen::VectorXd& weights,
+  void add_rows(const Eigen::VectorXd& response, const Eigen::VectorXd& weights,
                 interp::PenalisedProblem& problem) const {
     const auto [size, unknowns] = std::pair(to_unknowns_.rows(), to_unknowns_.cols());
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size + 1, size + 1);

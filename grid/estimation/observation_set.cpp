@@ -70,8 +70,7 @@ void add_columns(ObservationSet& set) {
 
 }  // namespace
 
-ObservationSet observation_set(model::Machine stated,
-                               const observation::Observations& observations,
+ObservationSet observation_set(model::Machine stated, const observation::Observations& observations,
                                std::shared_ptr<const model::Mechanism> mechanism) {
   ObservationSet set;
   const bool chains = mechanism == nullptr;
@@ -83,8 +82,8 @@ ObservationSet observation_set(model::Machine stated,
     if (observation->sheet()) {
       if (!chains) throw precondition("a sheet that was laid under {}", set.mechanism->kind());
       part.sheet = set.sheets++;
-      set.settings.insert(
-          set.settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+      set.settings.insert(set.settings.end(), model::kSheetSettings.begin(),
+                          model::kSheetSettings.end());
     }
     part.observation = observation;
     append(std::move(part), set);
@@ -124,8 +123,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
 }
 
 MachineState stated_state(const ObservationSet& set) {
-  return {set.stated,
-          std::vector<model::SheetPlacement>(set.sheets),
+  return {set.stated, std::vector<model::SheetPlacement>(set.sheets),
           set.is_of_chains() ? nullptr : set.mechanism};
 }
 
@@ -147,8 +145,7 @@ Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& st
   return values;
 }
 
-MachineState with_settings(const ObservationSet& set,
-                           MachineState state,
+MachineState with_settings(const ObservationSet& set, MachineState state,
                            const Eigen::VectorXd& values) {
   if (state.mechanism) {
     state.mechanism = state.mechanism->with_values(values.head(set.parameters()));
@@ -166,8 +163,8 @@ MachineState with_settings(const ObservationSet& set,
 }
 
 tl::expected<MachineState, model::MachineProblem> moved_to(const ObservationSet& set,
-                                                          MachineState state,
-                                                          const Eigen::VectorXd& values) {
+                                                           MachineState state,
+                                                           const Eigen::VectorXd& values) {
   const std::string kind(set.mechanism->kind());
   try {
     state = with_settings(set, std::move(state), values);

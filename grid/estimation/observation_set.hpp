@@ -168,8 +168,7 @@ struct ObservationSet {
 
 /// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
 /// \throws std::invalid_argument for a sheet under a mechanism other than two chains.
-ObservationSet observation_set(model::Machine stated,
-                               const observation::Observations& observations,
+ObservationSet observation_set(model::Machine stated, const observation::Observations& observations,
                                std::shared_ptr<const model::Mechanism> mechanism = nullptr);
 
 /// The machine with other observations, each in the frame (sheet and nuisances) of one of the set's
@@ -211,8 +210,7 @@ MachineState stated_state(const ObservationSet& set);
 /// Zeros of other sessions and nuisances are 0 in every state: their effect is linear.
 Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
 /// \throws std::invalid_argument for another mechanism than two chains that cannot have these values.
-[[nodiscard]] MachineState with_settings(const ObservationSet& set,
-                                         MachineState state,
+[[nodiscard]] MachineState with_settings(const ObservationSet& set, MachineState state,
                                          const Eigen::VectorXd& values);
 /// As above, or the reason why there is no such machine.
 [[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(

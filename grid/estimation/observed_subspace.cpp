@@ -4,7 +4,6 @@
 #include "grid/containers.hpp"
 #include "interp/linear_algebra.hpp"
 
-
 namespace chaintrue::grid {
 namespace {
 
@@ -17,15 +16,14 @@ Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::Matrix
   Eigen::MatrixXd bent = penalty;
   linear::add_outer(bent, scale, orthonormal);
   Eigen::MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();
-  linear::add_product(
-      root, -1.0, orthonormal, linear::product(linear::transposed(orthonormal), root));
+  linear::add_product(root, -1.0, orthonormal,
+                      linear::product(linear::transposed(orthonormal), root));
   return root;
 }
 
 }  // namespace
 
-ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
-                                   int bending_order,
+ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
                                    const std::vector<model::MarkPoint>& marks)
     : polynomials(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = std::ssize(marks);

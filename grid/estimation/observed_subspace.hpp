@@ -27,8 +27,7 @@
 namespace chaintrue::grid {
 
 struct ObservedSubspace {
-  ObservedSubspace(const interp::BsplineBasis& basis,
-                   int bending_order,
+  ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
                    const std::vector<model::MarkPoint>& marks);
 
   Eigen::MatrixXd polynomials;      ///< F

@@ -28,8 +28,7 @@ struct PlacementNormal {
 
   /// One reading of both chains: measured less predicted, d(predicted)/d(placement), and the inverse
   /// of its covariance.
-  void add(const Eigen::Vector2d& residual,
-           const Eigen::Matrix<double, 2, 3>& by_placement,
+  void add(const Eigen::Vector2d& residual, const Eigen::Matrix<double, 2, 3>& by_placement,
            const Eigen::Matrix2d& weight) {
     normal += by_placement.transpose() * weight * by_placement;
     right += by_placement.transpose() * weight * residual;

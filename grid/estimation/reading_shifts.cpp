@@ -29,10 +29,8 @@ Eigen::MatrixXd without_readings(const SystemUnit& unit,
   return linear::range_of(unit.by_reading(Eigen::all, rejected)).rest;
 }
 
-ReadingShift shift_of(const FittedRows& rows,
-                      const SystemUnit& unit,
-                      const std::vector<Eigen::Index>& rejected,
-                      Eigen::Index reading) {
+ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit,
+                      const std::vector<Eigen::Index>& rejected, Eigen::Index reading) {
   std::vector<Eigen::Index> others = rejected;
   const bool counts = std::erase(others, reading) == 0;
   const Eigen::MatrixXd basis = without_readings(unit, others);

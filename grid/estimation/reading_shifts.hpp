@@ -58,9 +58,7 @@ struct FittedRows {
   double dof = 0.0;  ///< n
 };
 
-ReadingShift shift_of(const FittedRows& rows,
-                      const SystemUnit& unit,
-                      const std::vector<Eigen::Index>& rejected,
-                      Eigen::Index reading);
+ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit,
+                      const std::vector<Eigen::Index>& rejected, Eigen::Index reading);
 
 }  // namespace chaintrue::grid::estimation

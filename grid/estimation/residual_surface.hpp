@@ -45,8 +45,7 @@ struct ResidualSurface {
     model::ChainLengths lengths;
     Eigen::Matrix2d mark_jacobian;
   };
-  Corrected apply(model::MarkPoint mark,
-                  model::ChainLengths lengths,
+  Corrected apply(model::MarkPoint mark, model::ChainLengths lengths,
                   const Eigen::Matrix2d& mark_jacobian) const;
 };
 

@@ -18,13 +18,11 @@ class SurfaceCorrection final : public observation::LengthCorrection {
   /// For marks in the surface's frame.
   explicit SurfaceCorrection(const ResidualSurface& surface) : surface_(surface) {}
   /// For marks on a sheet other than the surface's.
-  SurfaceCorrection(const ResidualSurface& surface,
-                    model::SheetPlacement surface_sheet,
+  SurfaceCorrection(const ResidualSurface& surface, model::SheetPlacement surface_sheet,
                     model::SheetPlacement own_sheet)
       : surface_(surface), sheets_(Sheets{surface_sheet, own_sheet}) {}
 
-  At at(model::MarkPoint mark,
-        model::ChainLengths lengths,
+  At at(model::MarkPoint mark, model::ChainLengths lengths,
         const Eigen::Matrix2d& by_mark) const override {
     const auto corrected = surface_.apply(to_surface(mark), lengths, Eigen::Matrix2d::Zero());
     const Eigen::Vector2d by_length(1.0 + surface_.scale.left, 1.0 + surface_.scale.right);

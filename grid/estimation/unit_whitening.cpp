@@ -5,18 +5,17 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "interp/linear_algebra.hpp"
 #include "grid/precondition.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 
 UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance) {
   const Eigen::Index n = covariance.rows();
   if (n < 1 || n > kMostUnitReadings || covariance.cols() != n) {
-    throw precondition("the covariance of a unit's readings is {} x {}; 1 to {} readings are allowed",
-                       n,
-                       covariance.cols(),
-                       kMostUnitReadings);
+    throw precondition(
+        "the covariance of a unit's readings is {} x {}; 1 to {} readings are allowed", n,
+        covariance.cols(), kMostUnitReadings);
   }
   if (n == 1) return UnitMatrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
   if (n == 2) {

@@ -19,19 +19,14 @@ constexpr int kMostPlaces = 100000;
 
 auto fitted_coordinate_record() {
   RECORD(AnchorCoordinate, "a coordinate of an anchor")
-  NAMED(required,
-        "coordinate",
-        name,
+  NAMED(required, "coordinate", name,
         "Which coordinate; the bottom left anchor is the origin, and the bottom right "
         "one is on the x axis.",
         one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
   OPTIONAL(stated_mm, "Value in the settings; null if unknown.", kMillimetres)
   REQUIRED(fitted_mm, "Fitted value.", kMillimetres)
   REQUIRED(sigma_mm, "Its uncertainty, 1 sigma.", kSigmaMm)
-  NAMED(required,
-        "rests_on",
-        variance_share,
-        "Share of its variance from each belt's readings.",
+  NAMED(required, "rests_on", variance_share, "Share of its variance from each belt's readings.",
         per_belt_record<double>(number(kAnyNumber)));
 }
 
@@ -39,10 +34,7 @@ auto bad_record() {
   RECORD(BadBeltReading, "a bad reading")
   REQUIRED(point, "Number of the place, from 0.", index_number(0, kMostPlaces))
   REQUIRED(belt, "The belt.", belt_word())
-  NAMED(required,
-        "off_mm",
-        residual_mm,
-        "Reading minus the value predicted from all others.",
+  NAMED(required, "off_mm", residual_mm, "Reading minus the value predicted from all others.",
         kMillimetres);
 }
 
@@ -53,19 +45,14 @@ auto residual_record() {
   REQUIRED(sigmas,
            "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
            kAnyNumber)
-  NAMED(required,
-        "beside_mm",
-        deleted_residual_mm,
-        "Reading minus the value predicted from all others.",
-        kMillimetres);
+  NAMED(required, "beside_mm", deleted_residual_mm,
+        "Reading minus the value predicted from all others.", kMillimetres);
 }
 
 void residual_keys(Record<FittedPlace>& place) {
   for (const model::Belt belt : model::kBelts) {
     place.computed(
-        name(belt),
-        fmt::format("Residual of the {} belt.", words(belt)),
-        true,
+        name(belt), fmt::format("Residual of the {} belt.", words(belt)), true,
         object(residual_record()),
         [belt](FittedPlace& p, const BeltResidual& own) { p.belts[belt] = own; },
         [belt](const FittedPlace& p) { return p.belts[belt]; });
@@ -74,16 +61,10 @@ void residual_keys(Record<FittedPlace>& place) {
 
 auto fitted_place_record() {
   RECORD(FittedPlace, "a fitted place")
-  FIELD(place,
-        &FittedPlace::at,
-        "x of the tool, to the right of the bottom left anchor.",
-        "y of the tool, up from the bottom left anchor.",
-        kMillimetres)
+  FIELD(place, &FittedPlace::at, "x of the tool, to the right of the bottom left anchor.",
+        "y of the tool, up from the bottom left anchor.", kMillimetres)
   FIELD(
-      computed,
-      "covariance_mm2",
-      "Covariance of x and y: xx, xy, yy.",
-      true,
+      computed, "covariance_mm2", "Covariance of x and y: xx, xy, yy.", true,
       exactly<3>(number(kSquare), "3 numbers"),
       [](FittedPlace& p, const std::array<double, 3>& c) {
         p.covariance_mm2 << c[0], c[1], c[1], c[2];
@@ -134,14 +115,10 @@ auto cause_in_fit_record() {
 auto fit_record() {
   RECORD(BeltsFit, "a fit of four belts")
   REQUIRED(machine, "The machine with the anchors fitted.", belt_machine_record())
-  REQUIRED(coordinates,
-           "The five coordinates that belts determine.",
+  REQUIRED(coordinates, "The five coordinates that belts determine.",
            exactly<5>(object(fitted_coordinate_record()), "five coordinates"))
   FIELD(
-      computed,
-      "covariance_mm2",
-      "Of the five, in their order.",
-      true,
+      computed, "covariance_mm2", "Of the five, in their order.", true,
       exactly<5>(exactly<5>(number(kSquare), "5 numbers"), "five rows of five numbers"),
       [](BeltsFit& fit, const Rows& rows) {
         fit.covariance_mm2 = Eigen::Map<const RowMajor>(rows.front().data());
@@ -151,31 +128,22 @@ auto fit_record() {
         Eigen::Map<RowMajor>(rows.front().data()) = fit.covariance_mm2;
         return rows;
       })
-  NAMED(required,
-        "spread_mm",
-        residual_sigma_mm,
-        "Spread of a reading, with 2N - 5 checks in the denominator.",
-        kSigmaMm)
+  NAMED(required, "spread_mm", residual_sigma_mm,
+        "Spread of a reading, with 2N - 5 checks in the denominator.", kSigmaMm)
   REQUIRED(checks, "Degrees of freedom: that denominator.", integer(0, 4 * kMostPlaces))
-  REQUIRED(rms_mm,
-           "Rms over all readings, rejected ones included, as in the machine's message.",
+  REQUIRED(rms_mm, "Rms over all readings, rejected ones included, as in the machine's message.",
            kSigmaMm)
-  REQUIRED(rms_of_mm,
-           "Rms of each belt's readings without the rejected ones.",
+  REQUIRED(rms_of_mm, "Rms of each belt's readings without the rejected ones.",
            per_belt_record<double>(number(kAnyNumber)))
-  FIELD(part,
-        "foretold",
-        "Lower belts predicted from the upper two at places left out of the fit.",
-        true,
-        both_predictions_record())
+  FIELD(part, "foretold", "Lower belts predicted from the upper two at places left out of the fit.",
+        true, both_predictions_record())
   OPTIONAL(scale, "From taped distances; absent: not known.", scale_record())
   SPARSE(causes,
          "Causes besides the anchors: the stretch of the belts, and others that are more "
          "likely than not. Places and residuals are corrected for them.",
          cause_in_fit_record())
   SPARSE(bad, "Readings left out, the worst first.", bad_record())
-  SPARSE(bad_points,
-         "Places where fewer than three readings agree.",
+  SPARSE(bad_points, "Places where fewer than three readings agree.",
          list(index_number(0, kMostPlaces)))
   REQUIRED(places, "The fitted places.", fitted_place_record());
 }
@@ -185,8 +153,7 @@ const Record<FittedAnchors>& fitted_anchors_record() {
     RECORD(FittedAnchors, "a chaintrue_anchors file", kAnchorsFormat)
     SPARSE(name, "Name of the set.")
     REQUIRED(fit, "The fit.", fit_record())
-    OPTIONAL(holes,
-             "Results from cut and taped holes; absent: none were given.",
+    OPTIONAL(holes, "Results from cut and taped holes; absent: none were given.",
              holes_with_belts_record())
     ALSO(add_made_by_key)
     ALSO(add_content_hash, "Hash of everything else; edited anchors are refused.")

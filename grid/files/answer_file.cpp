@@ -63,25 +63,13 @@ std::vector<synthetic::SettingOffset> offsets_of(const synthetic::SyntheticHoles
 }  // namespace
 
 std::string write_answer(const synthetic::SyntheticAnswer& answer) {
-  return written({answer.seed,
-                  answer.hidden,
-                  answer.offsets,
-                  answer.sheet,
-                  "bad_points",
-                  answer.bad_points,
-                  points_of(answer.places, answer.lengths),
-                  answer.machine});
+  return written({answer.seed, answer.hidden, answer.offsets, answer.sheet, "bad_points",
+                  answer.bad_points, points_of(answer.places, answer.lengths), answer.machine});
 }
 
 std::string write_answer(const synthetic::SyntheticHoles& made, const synthetic::HolesSpec& spec) {
-  return written({spec.seed,
-                  spec.hidden,
-                  offsets_of(made),
-                  spec.sheet,
-                  "bad_distances",
-                  made.bad_readings,
-                  points_of(made.places, made.lengths),
-                  made.truth});
+  return written({spec.seed, spec.hidden, offsets_of(made), spec.sheet, "bad_distances",
+                  made.bad_readings, points_of(made.places, made.lengths), made.truth});
 }
 
 namespace {

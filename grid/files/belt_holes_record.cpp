@@ -22,16 +22,11 @@ auto belt_hole_record() {
   RECORD(BeltHole, "a fitted hole")
   REQUIRED(name, "Its name.")
   FIELD(place, &BeltHole::commanded, "Commanded x.", "Commanded y, up.", kMillimetres)
-  FIELD(required,
-        "mark_x_mm",
+  FIELD(required, "mark_x_mm",
         "x from the fitted anchors, in the frame of the commands; the sheet may be elsewhere.",
-        path(&BeltHole::mark, &model::MarkPoint::x_mm),
-        kMillimetres)
-  FIELD(required,
-        "mark_y_mm",
-        "y from the fitted anchors, up.",
-        path(&BeltHole::mark, &model::MarkPoint::y_mm),
-        kMillimetres);
+        path(&BeltHole::mark, &model::MarkPoint::x_mm), kMillimetres)
+  FIELD(required, "mark_y_mm", "y from the fitted anchors, up.",
+        path(&BeltHole::mark, &model::MarkPoint::y_mm), kMillimetres);
 }
 
 auto taped_distance_record() {
@@ -69,22 +64,17 @@ auto displacement_record() {
   RECORD(DisplacementParts, "a displacement of the tool")
   REQUIRED(size_mm, "Its prior sigma, on each axis.", kPositiveMm)
   REQUIRED(reach_mm, "Length over which it changes.", kPositiveMm)
-  FIELD(computed,
-        "places",
+  FIELD(computed, "places",
         "For each place x, y, and the displacement of the tool in x and y from the "
         "position given by its upper two belts; mm.",
-        true,
-        list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
-        take_moved_places,
-        moved_places);
+        true, list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
+        take_moved_places, moved_places);
 }
 
 auto stated_sheet_record() {
   RECORD(SheetPlacement, "where the sheet lies")
-  FIELD(place,
-        "x of the sheet, to the right of the origin of commands.",
-        "y of the sheet, up from there.",
-        kMillimetres)
+  FIELD(place, "x of the sheet, to the right of the origin of commands.",
+        "y of the sheet, up from there.", kMillimetres)
   REQUIRED(rotation_rad, "Rotation, counter-clockwise.", kAngle);
 }
 
@@ -108,11 +98,9 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
 
 Record<HolesWithBelts> holes_with_belts_record() {
   RECORD(HolesWithBelts, "what holes add to belts")
-  REQUIRED(machine,
-           "The machine, with the anchors in force when the holes were cut.",
+  REQUIRED(machine, "The machine, with the anchors in force when the holes were cut.",
            belt_machine_record())
-  REQUIRED(holes,
-           "Holes of the first file, whose sheet defines the frame of the map.",
+  REQUIRED(holes, "Holes of the first file, whose sheet defines the frame of the map.",
            belt_hole_record())
   REQUIRED(distances, "All taped distances.", taped_distance_record())
   REQUIRED(noise_factor, "Estimated noise of tape and holes, relative to the given one.", kFactor)

@@ -27,9 +27,8 @@ bool holds_repeats(const MeasuredBelts& belts) {
   for (std::size_t i = 1; i < belts.points.size(); ++i) {
     double farthest_mm = 0.0;
     for (const Belt belt : model::kBelts) {
-      farthest_mm = std::max(
-          farthest_mm,
-          std::abs(belts.points[i].lengths_mm[belt] - belts.points[i - 1].lengths_mm[belt]));
+      farthest_mm = std::max(farthest_mm, std::abs(belts.points[i].lengths_mm[belt] -
+                                                   belts.points[i - 1].lengths_mm[belt]));
     }
     if (farthest_mm > 0.0 && farthest_mm < kSamePlaceMm) return true;
   }
@@ -58,13 +57,10 @@ struct BeltsChecks {
     const auto unit = suspected_unit(belts);
     if (!unit) return;
     problems.explain(
-        places.points,
-        ProblemKind::other_unit,
+        places.points, ProblemKind::other_unit,
         fmt::format("these lengths look like {}: multiply them by {:g} (they are about "
                     "{:.3g}; the machine prints mm).",
-                    unit->word,
-                    unit->factor,
-                    unit->found));
+                    unit->word, unit->factor, unit->found));
   }
 
   void check_twice() const {
@@ -80,8 +76,7 @@ struct BeltsChecks {
                       same);
         continue;
       }
-      problems.add(places.point(i, ""),
-                   lengths_in_words(belts.points[i]),
+      problems.add(places.point(i, ""), lengths_in_words(belts.points[i]),
                    ProblemKind::repeated_value,
                    "a separate reading: {} has the same four lengths to the last digit; leave one "
                    "of the two out",
@@ -95,9 +90,7 @@ struct BeltsChecks {
       if (!belts.points[i].pulled) continue;
       for (const Belt belt : *belts.points[i].pulled) {
         if (!model::is_upper(belt)) continue;
-        problems.add(places.point(i, "pulled"),
-                     std::string(name(belt)),
-                     ProblemKind::contradiction,
+        problems.add(places.point(i, "pulled"), std::string(name(belt)), ProblemKind::contradiction,
                      "bl and br only: on an upright frame tl and tr hold the sled and are never "
                      "pulled; if the frame lies flat, use \"orientation\": \"flat\"");
       }
@@ -109,8 +102,7 @@ struct BeltsChecks {
     for (std::size_t i = 1; i < belts.points.size(); ++i) {
       const std::optional<BeltPull>& own = belts.points[i].pull;
       if (own.has_value() == first.has_value() && (!own || own->unit == first->unit)) continue;
-      problems.add(places.point(i, "pull"),
-                   own ? words_of(*own) : "no pull",
+      problems.add(places.point(i, "pull"), own ? words_of(*own) : "no pull",
                    ProblemKind::contradiction,
                    "a pull like that of point 1 ({}): either all points have a pull, in "
                    "one unit (pull_n, pull_ma or pull), or none has",
@@ -132,9 +124,7 @@ struct BeltsChecks {
     constexpr double kMirroredMm = 15.0;
     constexpr double kMostReported = 1000.0;
     problems.add(
-        places.points,
-        found,
-        ProblemKind::sides_swapped,
+        places.points, found, ProblemKind::sides_swapped,
         "each belt's lengths under its own name: exchanged, they agree to {:.1f} mm; as they "
         "are, they {}",
         swap->swapped_mm,
@@ -155,8 +145,7 @@ struct BeltsChecks {
         "anchors of the measured frame, whose {} is {:.0f} mm according to the lengths{}; these "
         "settings are from another frame, or belts are at the wrong anchors. Use the settings of "
         "this machine, or none (leave out x_mm and y_mm, or --settings)",
-        other->coordinate,
-        other->fitted_mm,
+        other->coordinate, other->fitted_mm,
         other->upper_mm > 0.0
             ? fmt::format(", and at the commanded places the upper belts read {:.0f} mm off "
                           "these anchors",
@@ -172,16 +161,14 @@ struct BeltsChecks {
       problems.add(fmt::format("/distances/{}/distance_mm", asked.distance),
                    fmt::format("{:.10g}", belts.distances[asked.distance].distance_mm),
                    ProblemKind::contradiction,
-                   "about {:.0f}, according to the lengths of the belts; {}",
-                   asked.by_belts_mm,
+                   "about {:.0f}, according to the lengths of the belts; {}", asked.by_belts_mm,
                    asked.question);
     }
   }
 
   void check_nowhere(const belts::AnchorFit& frame) const {
     for (const NowherePoint& nowhere : points_nowhere(belts, frame)) {
-      problems.add(places.point(nowhere.point, ""),
-                   lengths_in_words(belts.points[nowhere.point]),
+      problems.add(places.point(nowhere.point, ""), lengths_in_words(belts.points[nowhere.point]),
                    ProblemKind::contradiction,
                    "four lengths that meet at one place; with the anchors from the other "
                    "points, the best place is off by {:.0f} mm: is a digit missing, or "
@@ -204,8 +191,7 @@ void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Pro
   checks.check_pulls();
 }
 
-void check_belt_distances(const MeasuredBelts& belts,
-                          const std::string& distances,
+void check_belt_distances(const MeasuredBelts& belts, const std::string& distances,
                           Problems& problems) {
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
     const BeltDistance& distance = belts.distances[i];
@@ -215,17 +201,12 @@ void check_belt_distances(const MeasuredBelts& belts,
     const auto check = [&](const BeltEnd& end, std::string_view key) {
       const auto* index = std::get_if<std::size_t>(&end);
       if (index != nullptr && *index >= belts.points.size()) {
-        problems.add(place(key),
-                     fmt::format("{}", *index),
-                     ProblemKind::out_of_range,
-                     "a point of this file, counted from 0: 0 to {}",
-                     belts.points.size() - 1);
+        problems.add(place(key), fmt::format("{}", *index), ProblemKind::out_of_range,
+                     "a point of this file, counted from 0: 0 to {}", belts.points.size() - 1);
       }
       if (std::holds_alternative<CutHole>(end) && !belts.machine.anchors_known) {
         problems.add(
-            place(key),
-            words_of(end),
-            ProblemKind::unknown_word,
+            place(key), words_of(end), ProblemKind::unknown_word,
             "a point or an anchor; the position of a hole follows from the anchors in force when "
             "it was cut, and the machine has no x_mm and y_mm for them");
       }
@@ -233,17 +214,13 @@ void check_belt_distances(const MeasuredBelts& belts,
     check(distance.from, "from");
     check(distance.to, "to");
     if (words_of(distance.from) == words_of(distance.to)) {
-      problems.add(place("to"),
-                   words_of(distance.to),
-                   ProblemKind::repeated_value,
+      problems.add(place("to"), words_of(distance.to), ProblemKind::repeated_value,
                    "an end different from its start");
     }
   }
 }
 
-bool check_belts_together(const MeasuredBelts& belts,
-                          const BeltPlaces& places,
-                          BeltsUse use,
+bool check_belts_together(const MeasuredBelts& belts, const BeltPlaces& places, BeltsUse use,
                           Problems& problems) {
   // No fit takes more, so readers reject them at once.
   if (belts.points.size() > kMostBeltPoints) return false;
@@ -254,8 +231,7 @@ bool check_belts_together(const MeasuredBelts& belts,
     if (problems.any()) return false;
     if (const auto other = second_frame_begins(belts)) {
       problems.explain(
-          places.point(*other, ""),
-          ProblemKind::other_sheet,
+          places.point(*other, ""), ProblemKind::other_sheet,
           "from here on the places are from a different frame: each part is consistent, but no "
           "frame fits both. Possible causes: a belt that was hooked in again, an anchor that was "
           "moved, or two files joined into one. Make each part a separate file");
@@ -276,31 +252,23 @@ bool check_belts_together(const MeasuredBelts& belts,
   const Reason reason = fit.error().reason;
   const bool only_said = use == BeltsUse::import && reason != Reason::no_frame;
   if (only_said) {
-    problems.warn(
-        places.points, "not enough for a fit of the anchors yet: {}", fit.error().sentence());
+    problems.warn(places.points, "not enough for a fit of the anchors yet: {}",
+                  fit.error().sentence());
     return false;
   }
   const std::string found = fmt::format("{} places", belts.points.size());
   if (reason == Reason::too_few_points) {
-    problems.add(places.points,
-                 found,
-                 ProblemKind::too_few,
-                 "at least {}, which leave {} checks of the anchors",
-                 kFewestBeltPoints,
+    problems.add(places.points, found, ProblemKind::too_few,
+                 "at least {}, which leave {} checks of the anchors", kFewestBeltPoints,
                  2 * kFewestBeltPoints - 5);
   } else if (reason == Reason::not_determined) {
     problems.add(
-        places.points,
-        found + " on a line",
-        ProblemKind::on_a_line,
+        places.points, found + " on a line", ProblemKind::on_a_line,
         "places spread over the sheet's width and height; on a line or in one spot they do not "
         "determine the anchors");
   } else {
-    problems.add(places.points,
-                 found + " that fit no frame",
-                 ProblemKind::contradiction,
-                 "lengths of one frame; {}",
-                 fit.error().sentence());
+    problems.add(places.points, found + " that fit no frame", ProblemKind::contradiction,
+                 "lengths of one frame; {}", fit.error().sentence());
   }
   return false;
 }

@@ -31,14 +31,11 @@ bool holds_repeats(const MeasuredBelts& belts);
 /// it only if no value had a problem before.
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems);
 /// Checks the ends of distances. `distances` is their place in the file.
-void check_belt_distances(const MeasuredBelts& belts,
-                          const std::string& distances,
+void check_belt_distances(const MeasuredBelts& belts, const std::string& distances,
                           Problems& problems);
 /// Enough positions, spread out, that are consistent with one frame and the belts' names. For a log
 /// that is only imported the first two are warnings. True if they are enough for a fit.
-bool check_belts_together(const MeasuredBelts& belts,
-                          const BeltPlaces& places,
-                          BeltsUse use,
+bool check_belts_together(const MeasuredBelts& belts, const BeltPlaces& places, BeltsUse use,
                           Problems& problems);
 
 }  // namespace chaintrue::grid::files

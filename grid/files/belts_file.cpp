@@ -24,9 +24,7 @@ void move_ends(const PointIndices& remaining, MeasuredBelts& belts, Problems& pr
       if (index == nullptr) continue;
       const auto own = std::find(remaining.begin(), remaining.end(), *index);
       if (own == remaining.end()) {
-        problems.add(fmt::format("/distances/{}", i),
-                     words_of(*end),
-                     ProblemKind::contradiction,
+        problems.add(fmt::format("/distances/{}", i), words_of(*end), ProblemKind::contradiction,
                      "a point that is used: --without leaves it out. Remove the distance from the "
                      "file, or keep the point");
         return;
@@ -40,11 +38,8 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
   const std::size_t count = belts.points.size();
   for (const std::size_t number : without) {
     if (number <= count) continue;
-    problems.add("--without",
-                 fmt::format("{}", number),
-                 ProblemKind::out_of_range,
-                 "points of this file, counted from 1: 1 to {}",
-                 count);
+    problems.add("--without", fmt::format("{}", number), ProblemKind::out_of_range,
+                 "points of this file, counted from 1: 1 to {}", count);
   }
   problems.throw_if_any();
   PointIndices remaining;
@@ -58,17 +53,14 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
 
 }  // namespace
 
-std::vector<std::size_t> point_numbers_of(const std::string& text,
-                                          const std::string& option,
+std::vector<std::size_t> point_numbers_of(const std::string& text, const std::string& option,
                                           std::string_view what) {
   constexpr int kMost = 1000000;
   std::vector<std::size_t> numbers;
   for (const std::string& part : parts_at_commas(text)) {
     const auto number = whole_number_of(part, 1, kMost);
     if (!number) {
-      refuse("the command line",
-             option,
-             shortened(text),
+      refuse("the command line", option, shortened(text),
              fmt::format("numbers of {}, counted from 1, as in 7,12", what));
     }
     numbers.push_back(as_size(*number));
@@ -76,8 +68,7 @@ std::vector<std::size_t> point_numbers_of(const std::string& text,
   return numbers;
 }
 
-ReadBelts parse_belts(const std::string& text,
-                      const std::string& file,
+ReadBelts parse_belts(const std::string& text, const std::string& file,
                       const std::vector<std::size_t>& without) {
   Problems problems(file);
   ReadBelts read{read_document(belts_record(), text, problems), {}};

@@ -60,15 +60,13 @@ struct ReadBelts {
 /// lengths that fit no position). `file` is the name used in messages. Points of `without`, counted
 /// from 1, are left out before all checks except those of the file's form. \throws InputError with
 /// every problem.
-ReadBelts parse_belts(const std::string& text,
-                      const std::string& file,
+ReadBelts parse_belts(const std::string& text, const std::string& file,
                       const std::vector<std::size_t>& without = {});
 /// The indices of the points that remain without these.
 PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& without);
 /// "7,12" of an option, numbers of `what`. \throws InputError where these are not numbers from 1 on.
 std::vector<std::size_t> point_numbers_of(
-    const std::string& text,
-    const std::string& option,
+    const std::string& text, const std::string& option,
     std::string_view what = "points as the messages number them");
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.

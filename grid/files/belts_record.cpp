@@ -31,8 +31,7 @@ auto anchor_record() {
            "x of the point where the belt leaves the frame, to the right of the bottom "
            "left anchor. Given for all four anchors or for none.",
            kMillimetres)
-  OPTIONAL(y_mm,
-           "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
+  OPTIONAL(y_mm, "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
            kMillimetres)
   OPTIONAL(z_mm, "Its height above the bed; default: the firmware's.", kMillimetres);
 }
@@ -57,8 +56,7 @@ void read_anchors(const Cursor& at, BeltMachine& machine) {
   }
   machine.anchors_known = known == 8;
   if (known != 0 && known != 8 && at.clean()) {
-    at.report(fmt::format("{} of eight coordinates", known),
-              ProblemKind::missing,
+    at.report(fmt::format("{} of eight coordinates", known), ProblemKind::missing,
               "x_mm and y_mm of all four anchors, or of none if they are not known yet");
   }
 }
@@ -77,8 +75,8 @@ Json written_anchors(const BeltMachine& machine) {
 
 auto belt_record() {
   RECORD(BeltMachine, "a belt")
-  NAMED(
-      optional, "turn_mm", belt_turn_mm, "Belt length for one turn of the encoder.", kMillimetres);
+  NAMED(optional, "turn_mm", belt_turn_mm, "Belt length for one turn of the encoder.",
+        kMillimetres);
 }
 
 constexpr Range kPull{"", 1e-3, 1e6};
@@ -88,8 +86,7 @@ void add_pull(Record<BeltPoint>& record) {
   using Unit = BeltPull::Unit;
   constexpr std::tuple<const char*, const char*, Unit> kKeys[] = {
       {"pull_n", "Tension of the pulled belts, N; given for all places or for none.", Unit::newton},
-      {"pull_ma",
-       "Current of the motors instead, mA; the force is assumed proportional to it.",
+      {"pull_ma", "Current of the motors instead, mA; the force is assumed proportional to it.",
        Unit::milliampere},
       {"pull",
        "Relative tension, if neither is known. Sizes of a stretch and of a yielding anchor refer "
@@ -99,10 +96,7 @@ void add_pull(Record<BeltPoint>& record) {
   for (const auto& [key, meaning, unit] : kKeys) {
     const Unit own = unit;
     record.custom(
-        key,
-        meaning,
-        false,
-        number(kPull).expected,
+        key, meaning, false, number(kPull).expected,
         [own](const Cursor& at, BeltPoint& point) {
           const auto value = number(kPull).read(at);
           if (!value) return;
@@ -142,14 +136,10 @@ void add_lengths(Record<BeltPoint>& record) {
 constexpr int kMostReadings = 400000;
 
 void add_command(Record<BeltPoint>& record) {
-  record.optional("commanded_x_mm",
-                  "Commanded x, from the crossing of the frame's diagonals.",
-                  path(&BeltPoint::commanded, &model::BedPoint::x_mm),
-                  kCoordinateMm);
-  record.optional("commanded_y_mm",
-                  "Commanded y, up from there.",
-                  path(&BeltPoint::commanded, &model::BedPoint::y_mm),
-                  kCoordinateMm);
+  record.optional("commanded_x_mm", "Commanded x, from the crossing of the frame's diagonals.",
+                  path(&BeltPoint::commanded, &model::BedPoint::x_mm), kCoordinateMm);
+  record.optional("commanded_y_mm", "Commanded y, up from there.",
+                  path(&BeltPoint::commanded, &model::BedPoint::y_mm), kCoordinateMm);
   record.check([](const Cursor& at, BeltPoint&) {
     if (at.has("commanded_x_mm") == at.has("commanded_y_mm")) return;
     const char* lacking = at.has("commanded_x_mm") ? "commanded_y_mm" : "commanded_x_mm";
@@ -161,16 +151,13 @@ auto belt_point_record() {
   RECORD(BeltPoint, "a place")
   ALSO(add_lengths)
   ALSO(add_command)
-  OPTIONAL(order,
-           "Number of the visit. Either all places have one, all different, or none has.",
+  OPTIONAL(order, "Number of the visit. Either all places have one, all different, or none has.",
            integer(0, 1000000))
   FIELD(
-      computed,
-      "pulled",
+      computed, "pulled",
       "Belts that a motor tensioned at the reading while the others held; default: those for the "
       "frame's orientation.",
-      false,
-      list(belt_word()),
+      false, list(belt_word()),
       [](BeltPoint& p, const std::vector<Belt>& found) {
         p.pulled.emplace();
         for (const Belt belt : kBelts) {
@@ -179,19 +166,14 @@ auto belt_point_record() {
       },
       [](const BeltPoint& p) { return p.pulled; })
   ALSO(add_pull)
-  NAMED(sparse,
-        "thrown_away",
-        thrown_away_mm,
-        "Single readings that the controller discarded here.",
-        thrown_away_record());
+  NAMED(sparse, "thrown_away", thrown_away_mm,
+        "Single readings that the controller discarded here.", thrown_away_record());
 }
 
 auto hole_place_record() {
   RECORD(model::BedPoint, "where a hole was commanded")
-  FIELD(place,
-        "Commanded x, to the right of the crossing of the frame's diagonals.",
-        "Commanded y, up from there.",
-        kCoordinateMm);
+  FIELD(place, "Commanded x, to the right of the crossing of the frame's diagonals.",
+        "Commanded y, up from there.", kCoordinateMm);
 }
 
 Value<BeltEnd> end_of_distance() {
@@ -225,8 +207,7 @@ Value<BeltEnd> end_of_distance() {
 
 auto belt_distance_record() {
   RECORD(BeltDistance, "a taped distance")
-  REQUIRED(from,
-           "A place by its number from 0, an anchor, or a hole cut by the machine.",
+  REQUIRED(from, "A place by its number from 0, an anchor, or a hole cut by the machine.",
            end_of_distance())
   REQUIRED(to, "The other end, in the same form.", end_of_distance())
   REQUIRED(distance_mm, "The tape reading.", kLengthMm)
@@ -259,22 +240,16 @@ Record<BeltScale> scale_record() {
 Record<BeltMachine> belt_machine_record() {
   RECORD(BeltMachine, "a machine with four belts")
   OPTIONAL(name, "Name of the machine in messages and pages.")
-  FIELD(custom,
-        "anchors",
-        "Where the belts leave the frame; absent: not known yet.",
-        false,
-        anchors_record().expected(),
-        read_anchors,
-        written_anchors)
+  FIELD(custom, "anchors", "Where the belts leave the frame; absent: not known yet.", false,
+        anchors_record().expected(), read_anchors, written_anchors)
   FIELD(part, "belt", "The belts.", false, belt_record())
   OPTIONAL(arm_mm, "From the tool to the point where a belt's end is attached.", kMillimetres)
-  OPTIONAL(
-      end_extension_mm, "Length of the belt's end, from its last tooth to the arm.", kMillimetres)
+  OPTIONAL(end_extension_mm, "Length of the belt's end, from its last tooth to the arm.",
+           kMillimetres)
   OPTIONAL(surface_mm,
            "Thickness of spoilboard and work together, added to the heights of the anchors.",
            kMillimetres)
-  OPTIONAL(orientation,
-           "How the frame stands, which decides which belts are pulled.",
+  OPTIONAL(orientation, "How the frame stands, which decides which belts are pulled.",
            by_name_to(model::Orientation::flat))
   OPTIONAL(lengths,
            "What a printed length includes: the belt, the belt with extension and arm, or the "

@@ -96,15 +96,14 @@ Json held_out(const HeldOutError& error) {
 
 }  // namespace
 
-std::string write_fit(const CompensationMap& map,
-                      std::string_view sentence,
+std::string write_fit(const CompensationMap& map, std::string_view sentence,
                       std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   Json json = headed(kFitFormat);
   json["sentence"] = std::string(sentence);
   json["points"] = contents.points.size();
-  json["set_aside"] = std::count_if(
-      contents.points.begin(), contents.points.end(), [](const MapPoint& p) { return p.bad; });
+  json["set_aside"] = std::count_if(contents.points.begin(), contents.points.end(),
+                                    [](const MapPoint& p) { return p.bad; });
   json["one_at_a_time"] = held_out(contents.accuracy.leave_one_out);
   json["a_block_at_a_time"] = held_out(contents.accuracy.blocked);
   json["expected_tool"] = summary_of(contents.accuracy.expected_tool);

@@ -21,8 +21,7 @@ std::string write_anchors_check(const Check& check);
 // map, same bytes.
 
 /// `wish_mm`: the error of the tool that was wished for.
-std::string write_fit(const CompensationMap& map,
-                      std::string_view sentence,
+std::string write_fit(const CompensationMap& map, std::string_view sentence,
                       std::optional<double> wish_mm = std::nullopt);
 
 }  // namespace chaintrue::grid::files

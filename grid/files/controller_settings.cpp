@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::string_view kOfTheChain[] = {"chainpitch", "gearteeth", "chainoversprocket"};
 /// Settings that a firmware reads as 0 if they are not set.
-constexpr std::string_view kZeroUnlessSet[] = {
-    "topbeamtilt", "leftchaintolerance", "rightchaintolerance"};
+constexpr std::string_view kZeroUnlessSet[] = {"topbeamtilt", "leftchaintolerance",
+                                               "rightchaintolerance"};
 
 std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
   const auto number = [](double value) { return fmt::format("{}", value); };
@@ -69,9 +69,8 @@ std::vector<NamedSetting> settings_in_force(const model::Machine& machine) {
   }
   const Json json = controller_settings_record().write(machine.controller.settings);
   for (const auto& [name, value] : json.items()) {
-    settings.push_back(
-        {name,
-         value.is_string() ? value.get<std::string>() : fmt::format("{}", value.get<double>())});
+    settings.push_back({name, value.is_string() ? value.get<std::string>()
+                                                : fmt::format("{}", value.get<double>())});
   }
   return settings;
 }
@@ -96,8 +95,8 @@ std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& bef
 std::string in_words(const std::vector<SettingChange>& changes) {
   std::string words;
   for (const SettingChange& change : changes) {
-    words += fmt::format(
-        "{}{} {} -> {}", words.empty() ? "" : ", ", change.name, change.before, change.now);
+    words += fmt::format("{}{} {} -> {}", words.empty() ? "" : ", ", change.name, change.before,
+                         change.now);
   }
   return words;
 }

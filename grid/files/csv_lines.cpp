@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kLongMinuses = {"\xE2\x88\x92", "\xE2\x80\x93"};
 /// No-break space, the narrow one, thin and figure space.
-constexpr std::array<std::string_view, 4> kFirmSpaces = {
-    "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x87"};
+constexpr std::array<std::string_view, 4> kFirmSpaces = {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89",
+                                                         "\xE2\x80\x87"};
 
 std::size_t digits_at(std::string_view text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
@@ -194,9 +194,7 @@ void for_each_line(std::string_view text, const Visit& visit) {
 
 /// The cell at the line's `begin`; `begin` moves past its separator, or past the line's end at the
 /// last cell.
-CsvCell take_cell(std::string_view line,
-                  char separator,
-                  std::size_t& begin,
+CsvCell take_cell(std::string_view line, char separator, std::size_t& begin,
                   bool& quote_left_open) {
   while (begin < line.size() && line[begin] != separator && is_blank(line[begin])) ++begin;
   CsvCell cell;
@@ -258,8 +256,8 @@ LineOfWords line_of_header(std::string_view text) {
     const CsvRow row = csv_cells_of(line, separator_of_line(line), ignored);
     const auto numbers = std::count_if(
         row.begin(), row.end(), [](const CsvCell& cell) { return is_like_a_number(cell.text); });
-    const auto filled = std::count_if(
-        row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); });
+    const auto filled = std::count_if(row.begin(), row.end(),
+                                      [](const CsvCell& cell) { return !cell.text.empty(); });
     // A hole's name and its two coordinates; an order alone, before readings are typed in, is none.
     found_numbers = numbers >= 2 && 2 * numbers > filled;
     if (!found_numbers || above.empty()) above.push_back({line, number, filled});
@@ -280,34 +278,26 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
   const std::size_t first = line_of_header(text).number;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     if (number < first) {
-      problems.warn(
-          line_and_column(number, 1), "a note without a reading: left out ({})", shortened(line));
+      problems.warn(line_and_column(number, 1), "a note without a reading: left out ({})",
+                    shortened(line));
       return true;
     }
     if (line.size() > kLongestLine) {
-      problems.add(line_and_column(number, 1),
-                   "a longer line",
-                   ProblemKind::too_many,
-                   "lines of at most {} characters",
-                   kLongestLine);
+      problems.add(line_and_column(number, 1), "a longer line", ProblemKind::too_many,
+                   "lines of at most {} characters", kLongestLine);
       problems.throw_if_any();
     }
     bool quote_left_open = false;
     CsvRow row = csv_cells_of(line, separator, quote_left_open);
     for (CsvCell& cell : row) cell.line = number;
     if (quote_left_open) {
-      problems.add(line_and_column(number, 1),
-                   line,
-                   ProblemKind::bad_syntax,
+      problems.add(line_and_column(number, 1), line, ProblemKind::bad_syntax,
                    "a closing quote on the same line");
     }
     cells += row.size();
     if (cells > kMostCells) {
-      problems.add(line_and_column(number, 1),
-                   "more cells",
-                   ProblemKind::too_many,
-                   "a table of at most {} cells",
-                   kMostCells);
+      problems.add(line_and_column(number, 1), "more cells", ProblemKind::too_many,
+                   "a table of at most {} cells", kMostCells);
       problems.throw_if_any();
     }
     rows.push_back(std::move(row));

@@ -70,8 +70,7 @@ struct CellOfColumn {
 
 /// For each column its cell. Reports a header that does not fit, once, and warns of unknown
 /// columns.
-std::vector<CellOfColumn> match_header(const CsvRow& header,
-                                       const std::vector<CsvColumn>& columns,
+std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<CsvColumn>& columns,
                                        Problems& problems) {
   std::vector<CellOfColumn> index(columns.size());
   std::vector<std::string> found;
@@ -129,9 +128,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
     remarks += fmt::format("; if these are the columns in this order, the line should read {}",
                            fmt::join(names_of(columns, true), ","));
   }
-  problems.add(header.front().place(),
-               joined(found),
-               ProblemKind::bad_table,
+  problems.add(header.front().place(), joined(found), ProblemKind::bad_table,
                expected_header(columns) + remarks);
   return {};
 }
@@ -139,8 +136,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
 /// The values of a line, by column.
 std::vector<std::optional<double>> read_row(const CsvRow& row,
                                             const std::vector<CsvColumn>& columns,
-                                            const std::vector<CellOfColumn>& index,
-                                            CsvRow& cells,
+                                            const std::vector<CellOfColumn>& index, CsvRow& cells,
                                             Problems& problems) {
   std::vector<std::optional<double>> values(columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -152,12 +148,8 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     if (!cells[c].text.empty()) {
       values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
     } else if (column.is_required && !column.may_be_blank) {
-      problems.add(cells[c].place(),
-                   "",
-                   ProblemKind::left_blank,
-                   "{} ({})",
-                   column.range.expected(),
-                   column.name);
+      problems.add(cells[c].place(), "", ProblemKind::left_blank, "{} ({})",
+                   column.range.expected(), column.name);
     }
   }
   return values;
@@ -181,8 +173,8 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
   std::erase_if(rows, [](const CsvRow& row) { return all_of(row, is_empty); });
   while (rows.size() > 1) {
     const CsvRow& last = rows.back();
-    const auto filled = std::count_if(
-        last.begin(), last.end(), [](const CsvCell& cell) { return !is_empty(cell); });
+    const auto filled = std::count_if(last.begin(), last.end(),
+                                      [](const CsvCell& cell) { return !is_empty(cell); });
     const std::string& text = last.front().text;
     const bool is_words = last.size() > 1
                               ? !is_like_a_number(text) && !is_empty(last.front())
@@ -201,40 +193,29 @@ std::vector<std::string> csv_header(std::string_view text) {
   return names;
 }
 
-std::optional<double> number_in_unit(const CsvCell& cell,
-                                     double unit,
-                                     std::string_view name,
-                                     const Range& range,
-                                     Problems& problems) {
+std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
+                                     const Range& range, Problems& problems) {
   const auto bare = unit != 1.0 ? number_of(cell.text) : std::nullopt;
   if (!bare) return checked_number(cell.text, cell.place(), name, range, problems);
   if (range.holds(*bare * unit)) return *bare * unit;
-  problems.add(cell.place(),
-               fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
-               ProblemKind::out_of_range,
-               "{} ({})",
-               range.expected(),
-               name);
+  problems.add(cell.place(), fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
+               ProblemKind::out_of_range, "{} ({})", range.expected(), name);
   return std::nullopt;
 }
 
-CsvTable read_csv(std::string_view text,
-                  const std::vector<CsvColumn>& columns,
+CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
                   Problems& problems) {
   std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
   drop_notes(rows, problems);
   if (rows.empty()) {
-    problems.add("",
-                 text.empty() ? "an empty file" : "only blank lines and comments",
-                 ProblemKind::empty_file,
-                 expected_header(columns));
+    problems.add("", text.empty() ? "an empty file" : "only blank lines and comments",
+                 ProblemKind::empty_file, expected_header(columns));
     return {};
   }
   return read_table(std::move(rows), columns, problems);
 }
 
-CsvTable read_table(std::vector<CsvRow> rows,
-                    const std::vector<CsvColumn>& columns,
+CsvTable read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
                     Problems& problems) {
   CsvTable table;
   drop_trailing_cells(rows);
@@ -242,12 +223,10 @@ CsvTable read_table(std::vector<CsvRow> rows,
   if (index.empty()) return table;
   const std::size_t width = rows[0].size();
   if (looks_split_by_decimal_commas(rows, width)) {
-    problems.explain(rows[1].front().place(),
-                     ProblemKind::decimal_comma,
+    problems.explain(rows[1].front().place(), ProblemKind::decimal_comma,
                      fmt::format("these commas look like decimal commas: write decimals with a "
                                  "point ({} cells are under a header of {}).",
-                                 rows[1].size(),
-                                 width));
+                                 rows[1].size(), width));
     return table;
   }
   for (std::size_t r = 1; r < rows.size(); ++r) {
@@ -257,11 +236,8 @@ CsvTable read_table(std::vector<CsvRow> rows,
     if (rows[r].size() == width) {
       values = read_row(rows[r], columns, index, cells, problems);
     } else {
-      problems.add(rows[r].front().place(),
-                   fmt::format("{} cells", rows[r].size()),
-                   ProblemKind::bad_table,
-                   "{} cells, as in the header",
-                   width);
+      problems.add(rows[r].front().place(), fmt::format("{} cells", rows[r].size()),
+                   ProblemKind::bad_table, "{} cells, as in the header", width);
     }
     table.clean.push_back(problems.list().size() == problems_before);
     table.rows.push_back(std::move(values));

@@ -50,16 +50,12 @@ struct CsvTable {
 
 /// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
 /// problem is added if it is not a number or out of range.
-std::optional<double> number_in_unit(const CsvCell& cell,
-                                     double unit,
-                                     std::string_view name,
-                                     const Range& range,
-                                     Problems& problems);
+std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
+                                     const Range& range, Problems& problems);
 
 /// Reads rows whose first one, the header, names `columns`, in any order. Every problem is added; all
 /// rows that could be split are returned.
-CsvTable read_table(std::vector<CsvRow> rows,
-                    const std::vector<CsvColumn>& columns,
+CsvTable read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
                     Problems& problems);
 /// The same, of a text that is one table.
 CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns, Problems& problems);

@@ -54,10 +54,7 @@ auto stated_tape_record() {
 /// x or y, for points only.
 void shift_key(Record<Outlier>& shift, const char* key, const char* meaning, Eigen::Index axis) {
   shift.computed(
-      key,
-      meaning,
-      false,
-      number(kMillimetres),
+      key, meaning, false, number(kMillimetres),
       [axis](Outlier& bad, double value) { bad.shift_mm[axis] = value; },
       [axis](const Outlier& bad) {
         return bad.of == Observations::points ? std::optional(bad.shift_mm[axis]) : std::nullopt;
@@ -71,11 +68,7 @@ auto shift_record() {
   ALSO(shift_key, "x_mm", "x that its tool must have had, minus the recorded x.", 0)
   ALSO(shift_key, "y_mm", "y that its tool must have had, minus the recorded y.", 1)
   FIELD(
-      computed,
-      "off_mm",
-      "For a distance: excess of the reading.",
-      false,
-      number(kMillimetres),
+      computed, "off_mm", "For a distance: excess of the reading.", false, number(kMillimetres),
       [](Outlier& bad, double value) { bad.residual_mm = value; },
       [](const Outlier& bad) {
         return bad.of == Observations::points ? std::nullopt : std::optional(bad.residual_mm);
@@ -94,18 +87,13 @@ auto shift_record() {
 }
 
 /// The indices of the outliers that are distances next to points, or of all others.
-void outlier_indices(Record<Diagnosis>& record,
-                     const char* key,
-                     const char* meaning,
+void outlier_indices(Record<Diagnosis>& record, const char* key, const char* meaning,
                      bool beside_points) {
   const auto is_beside = [](const Diagnosis& object, const Outlier& bad) {
     return bad.of == Observations::distances && object.observations == Observations::both;
   };
   record.computed(
-      key,
-      meaning,
-      !beside_points,
-      list(index_number()),
+      key, meaning, !beside_points, list(index_number()),
       [beside_points](Diagnosis& object, const std::vector<std::size_t>& read) {
         for (const std::size_t index : read) {
           Outlier& bad = object.outliers.emplace_back();
@@ -126,18 +114,13 @@ void outlier_indices(Record<Diagnosis>& record,
 /// The indices of outliers and their displacements: lists of the same length together.
 void outlier_keys(Record<Diagnosis>& record) {
   static const Value<std::vector<Outlier>> shifts = shift_record();
-  outlier_indices(record,
-                  "bad_points",
+  outlier_indices(record, "bad_points",
                   "Indices of the points (for holes alone: of the distances) that were left out.",
                   false);
-  outlier_indices(record,
-                  "bad_distances",
-                  "Indices of the distances that were left out, if there were points too.",
-                  true);
+  outlier_indices(record, "bad_distances",
+                  "Indices of the distances that were left out, if there were points too.", true);
   record.custom(
-      "bad_point_shifts",
-      "One for each bad point, and after them for each bad distance.",
-      true,
+      "bad_point_shifts", "One for each bad point, and after them for each bad distance.", true,
       shifts.expected,
       [](const Cursor& at, Diagnosis& object) {
         const auto read = shifts.read(at);
@@ -177,8 +160,7 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
                          object.verdict == Verdict::several_causes;
   if (at.has("verdict") && at.has("causes") && names_one && object.causes.empty()) {
     at.child("causes").report(
-        "none",
-        ProblemKind::missing,
+        "none", ProblemKind::missing,
         fmt::format("at least one cause with the verdict \"{}\"", diagnosis::name(object.verdict)));
   }
 }
@@ -194,8 +176,7 @@ const Record<Diagnosis>& diagnosis_record() {
     REQUIRED(causes,
              "The named cause; or the set, most probable first; or the causes that act together.",
              cause_record())
-    REQUIRED(hypotheses,
-             "Every explanation with its probability, most probable first.",
+    REQUIRED(hypotheses, "Every explanation with its probability, most probable first.",
              hypothesis_record())
     REQUIRED(left_over, "What remains after the causes are removed.", left_over_record())
     OPTIONAL(tool_today,
@@ -216,22 +197,14 @@ const Record<Diagnosis>& diagnosis_record() {
            "What these readings show about each declared effect of the machine's file; absent "
            "if there is none.",
            declared_answer_record())
-    REQUIRED(settings,
-             "The machine's numbers, as in its file and calibrated.",
+    REQUIRED(settings, "The machine's numbers, as in its file and calibrated.",
              calibrated_setting_record())
-    NAMED(optional,
-          "gain",
-          improvement,
-          "Improvement by the cause at points that it was not fitted to.",
-          improvement_record())
-    REQUIRED(next_measurements,
-             "What to measure next, most informative first.",
+    NAMED(optional, "gain", improvement,
+          "Improvement by the cause at points that it was not fitted to.", improvement_record())
+    REQUIRED(next_measurements, "What to measure next, most informative first.",
              next_measurement_record())
     FIELD(
-        computed,
-        "extended_machine",
-        "The machine with what was found.",
-        false,
+        computed, "extended_machine", "The machine with what was found.", false,
         object(machine_record()),
         [](Diagnosis& object, const model::Machine& machine) { object.extended_machine = machine; },
         [](const Diagnosis& object) {
@@ -239,8 +212,7 @@ const Record<Diagnosis>& diagnosis_record() {
                                  object.observations != Observations::drawing;
           return of_chains ? machine_record().write(object.extended_machine) : kLeftOut;
         })
-    REQUIRED(data_corrections,
-             "Effects on the data (a tape's scale), not on the machine.",
+    REQUIRED(data_corrections, "Effects on the data (a tape's scale), not on the machine.",
              effect_record())
     REQUIRED(noise_factor, "Estimated noise divided by the given noise.", kNotNegative)
     REQUIRED(family_wise_p, "How often noise alone makes any effect look as strong.", kShare)
@@ -253,12 +225,10 @@ const Record<Diagnosis>& diagnosis_record() {
            "Results without each quarter of the bed, over which the probabilities are averaged; "
            "absent without a pattern.",
            bed_part_record())
-    SPARSE(sessions,
-           "Results for each of several sessions; absent if nothing is named.",
+    SPARSE(sessions, "Results for each of several sessions; absent if nothing is named.",
            session_record())
     NAMED(optional, "held_out_grid", transferred, "Another grid, predicted.", transfer_record())
-    SPARSE(observations,
-           "What was measured; default: points.",
+    SPARSE(observations, "What was measured; default: points.",
            choice<Observations>({{"points", Observations::points},
                                  {"distances", Observations::distances},
                                  {"points_and_distances", Observations::both},
@@ -268,8 +238,7 @@ const Record<Diagnosis>& diagnosis_record() {
     SPARSE(distances, "The distances, for pictures.", distance_picture_record())
     OPTIONAL(stated_tape, "The given noise of holes and tape.", stated_tape_record())
     OPTIONAL(belts, "Results for four belts, if these were diagnosed.", belts_findings_record())
-    OPTIONAL(drawing,
-             "Results for a V-plotter's test drawing, if that was diagnosed.",
+    OPTIONAL(drawing, "Results for a V-plotter's test drawing, if that was diagnosed.",
              drawing_findings_record())
     ALSO(add_made_by_key).check(check_diagnosis);
   }();

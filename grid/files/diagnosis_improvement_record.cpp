@@ -21,19 +21,16 @@ Record<T> figure_record(const Value<HeldOut>& figure) {
   record.required("as_delivered",
                   "As delivered: with the machine file's settings, for commands with the "
                   "controller's. At the measured points; tool_today is over the measured part.",
-                  &T::uncalibrated,
-                  figure);
+                  &T::uncalibrated, figure);
   if constexpr (requires { &T::placed; })
     record.optional("placed", "After the best placement of the sheet.", &T::placed, figure);
   record.required("calibrated", "With calibrated settings.", &T::calibrated, figure)
       .required("extended", "With the named causes.", &T::extended, figure)
-      .required("extended_and_surface",
-                "With the causes and a smooth surface.",
-                &T::extended_and_surface,
-                figure);
+      .required("extended_and_surface", "With the causes and a smooth surface.",
+                &T::extended_and_surface, figure);
   if constexpr (requires { &T::surface_only; })
-    record.required(
-        "surface_only", "With a smooth surface and no cause.", &T::surface_only, figure);
+    record.required("surface_only", "With a smooth surface and no cause.", &T::surface_only,
+                    figure);
   return record;
 }
 
@@ -50,20 +47,14 @@ Value<HeldOut> single(double HeldOut::*member) {
 template <class T>
 void error_figures(Record<T>& record) {
   record
-      .part("position_rms_mm",
-            "Rms error at the tool (for holes alone: of a distance).",
-            true,
+      .part("position_rms_mm", "Rms error at the tool (for holes alone: of a distance).", true,
             figure_record<T>(single(&HeldOut::rms_mm))
                 .required("noise_floor", "From noise alone.", &T::noise_floor_mm, kSigmaMm))
-      .part("position_percentile_95_mm",
-            "95th percentile of the error.",
-            true,
+      .part("position_percentile_95_mm", "95th percentile of the error.", true,
             figure_record<T>(single(&HeldOut::percentile_95_mm)))
-      .part("position_rms_90_percent_mm",
-            "90 % interval of the rms.",
-            true,
-            figure_record<T>(members_as_pair(
-                pair_of_numbers(kSigmaMm, true), &HeldOut::low_mm, &HeldOut::high_mm)));
+      .part("position_rms_90_percent_mm", "90 % interval of the rms.", true,
+            figure_record<T>(members_as_pair(pair_of_numbers(kSigmaMm, true), &HeldOut::low_mm,
+                                             &HeldOut::high_mm)));
 }
 
 }  // namespace

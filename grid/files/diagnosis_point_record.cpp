@@ -22,43 +22,30 @@ constexpr Range kNewton{"N", -1e6, 1e6};
 
 template <class T>
 void place_keys(Record<T>& record) {
-  record.place(&T::mark,
-               "x, to the right of the bed's middle, or of the marks' origin.",
-               "y, up from the bed's middle, or from the marks' origin.",
-               kMillimetres);
+  record.place(&T::mark, "x, to the right of the bed's middle, or of the marks' origin.",
+               "y, up from the bed's middle, or from the marks' origin.", kMillimetres);
 }
 
 }  // namespace
 
 Record<NextMeasurement> next_measurement_record() {
   RECORD(NextMeasurement, "a next measurement")
-  REQUIRED(kind,
-           "A new point, a second visit, a reading of the machine, or a distance.",
+  REQUIRED(kind, "A new point, a second visit, a reading of the machine, or a distance.",
            choice<MeasurementKind>({{"point", MeasurementKind::point},
                                     {"revisit", MeasurementKind::revisit},
                                     {"reading", MeasurementKind::reading},
                                     {"distance", MeasurementKind::distance}}))
   FIELD(
-      computed,
-      "what",
-      "The measurement in words.",
-      true,
-      text(),
+      computed, "what", "The measurement in words.", true, text(),
       [](NextMeasurement& object, const std::string& words) { object.words = words; },
       [](const NextMeasurement& object) {
         return object.reading ? std::string(name(*object.reading)) : object.words;
       })
   NULLABLE(side, "Side of a reading.", side_word())
-  FIELD(nullable,
-        "x_mm",
-        "x of the place.",
-        path(&NextMeasurement::mark, &model::MarkPoint::x_mm),
+  FIELD(nullable, "x_mm", "x of the place.", path(&NextMeasurement::mark, &model::MarkPoint::x_mm),
         kMillimetres)
-  FIELD(nullable,
-        "y_mm",
-        "y of the place, up.",
-        path(&NextMeasurement::mark, &model::MarkPoint::y_mm),
-        kMillimetres)
+  FIELD(nullable, "y_mm", "y of the place, up.",
+        path(&NextMeasurement::mark, &model::MarkPoint::y_mm), kMillimetres)
   REQUIRED(sigma, "Required accuracy, 1 sigma.", kNotNegative)
   REQUIRED(raises_probability_to, "Probability of a single right name afterwards.", kShare)
   SPARSE(from, "For a distance: the hole at one end; for belts an anchor, point or hole.")
@@ -85,10 +72,7 @@ Record<HolePicture> hole_picture_record() {
   RECORD(HolePicture, "a hole")
   REQUIRED(name, "Any word; without names the holes are numbered from 0.")
   ALSO(place_keys)
-  NAMED(required,
-        "commanded_mm",
-        commanded,
-        "Commanded position, [x, y].",
+  NAMED(required, "commanded_mm", commanded, "Commanded position, [x, y].",
         members_as_pair(pair_of_numbers(kMillimetres), &Place::x_mm, &Place::y_mm));
 }
 
@@ -113,8 +97,7 @@ Record<PointPicture> point_picture_record() {
   RECORD(PointPicture, "a point")
   REQUIRED(index, "Its number in the file.")
   ALSO(place_keys)
-  OPTIONAL(order,
-           "Number of the visit. Either all points have one, all different, or none has.",
+  OPTIONAL(order, "Number of the visit. Either all points have one, all different, or none has.",
            integer(-kMostOrder, kMostOrder))
   REQUIRED(bad, "True if it was left out as wrong.")
   REQUIRED(before_mm, "Measured minus predicted by the calibrated machine.", pair)
@@ -124,24 +107,14 @@ Record<PointPicture> point_picture_record() {
   REQUIRED(chain_after_mm, "In the chains, after.", pair)
   REQUIRED(best_mm, "Effect of the named cause.", pair)
   REQUIRED(rival_mm, "Effect that the rival would have.", pair)
-  NAMED(required,
-        "lengths_mm",
-        lengths,
-        "Lengths of the chains, [left, right].",
+  NAMED(required, "lengths_mm", lengths, "Lengths of the chains, [left, right].",
         members_as_pair(pair, &Lengths::left_mm, &Lengths::right_mm))
-  FIELD(custom,
-        "angles_rad",
-        "Angles of the chains below the horizontal, [left, right].",
-        true,
-        members_as_pair(
-            pair_of_numbers(kRad), &PointPicture::angle_left_rad, &PointPicture::angle_right_rad))
-  FIELD(
-      custom,
-      "tensions_n",
-      "Tensions of the chains, [left, right].",
-      true,
-      members_as_pair(
-          pair_of_numbers(kNewton), &PointPicture::tension_left_n, &PointPicture::tension_right_n))
+  FIELD(custom, "angles_rad", "Angles of the chains below the horizontal, [left, right].", true,
+        members_as_pair(pair_of_numbers(kRad), &PointPicture::angle_left_rad,
+                        &PointPicture::angle_right_rad))
+  FIELD(custom, "tensions_n", "Tensions of the chains, [left, right].", true,
+        members_as_pair(pair_of_numbers(kNewton), &PointPicture::tension_left_n,
+                        &PointPicture::tension_right_n))
   REQUIRED(direction_left,
            "1 if the left chain was paid out on the way there, -1 if taken in, 0 if neither.",
            integer(-1, 1))

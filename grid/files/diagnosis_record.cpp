@@ -77,17 +77,11 @@ template <class T>
 void cause_keys(Record<T>& record) {
   const Value<EffectSide> side = by_name_to(EffectSide::all, EffectSide::left);
   record.computed(
-      "effect",
-      "The effect's name, as chaintrue effects lists them.",
-      true,
-      effect_word(),
+      "effect", "The effect's name, as chaintrue effects lists them.", true, effect_word(),
       [](T& object, const Effect* effect) { cause_in(object).effect = effect; },
       [](const T& object) { return cause_in(object).effect; });
   record.computed(
-      "side",
-      "Where it acts; null for effects without a side.",
-      false,
-      side,
+      "side", "Where it acts; null for effects without a side.", false, side,
       [](T& object, EffectSide own) { cause_in(object).side = own; },
       [side](const T& object) {
         const EffectSide own = cause_in(object).side;
@@ -129,9 +123,7 @@ auto estimate_record() {
 template <class T>
 void parameter_keys(Record<T>& record) {
   record.custom(
-      "parameters",
-      "Its size and other parameters, each with its sigma.",
-      true,
+      "parameters", "Its size and other parameters, each with its sigma.", true,
       {"an object, each value a value with its sigma",
        [] { return dictionary_schema(estimate_record().schema()); }},
       [](const Cursor& at, T& object) {
@@ -161,8 +153,7 @@ void parameter_keys(Record<T>& record) {
       if (!contains(names, estimate.parameter)) {
         at.child("parameters")
             .child(estimate.parameter)
-            .report(estimate.parameter,
-                    ProblemKind::unknown_word,
+            .report(estimate.parameter, ProblemKind::unknown_word,
                     fmt::format("a parameter of {}: {}", object.cause.effect->id, joined(names)));
       }
     }
@@ -184,11 +175,8 @@ struct Rival {
 auto rival_record() {
   RECORD(Rival, "a rival")
   ALSO(cause_keys)
-  NAMED(required,
-        "rho",
-        collinearity,
-        "Collinearity of its signature with the cause's: 0 different, 1 the same.",
-        kShare);
+  NAMED(required, "rho", collinearity,
+        "Collinearity of its signature with the cause's: 0 different, 1 the same.", kShare);
 }
 
 }  // namespace
@@ -199,15 +187,11 @@ Record<Cause> cause_record() {
   REQUIRED(probability, "Its probability.", kShare)
   NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
   REQUIRED(share_left, "Share of its signature that the settings do not absorb.", kShare)
-  REQUIRED(same_as,
-           "Causes that such data cannot distinguish from it, with their sizes.",
+  REQUIRED(same_as, "Causes that such data cannot distinguish from it, with their sizes.",
            same_cause_record())
   ALSO(parameter_keys)
   FIELD(
-      computed,
-      "rival",
-      "The effect that is hardest to distinguish from it in these data.",
-      false,
+      computed, "rival", "The effect that is hardest to distinguish from it in these data.", false,
       object(rival_record()),
       [](Cause& object, const Rival& rival) {
         object.rival = rival.cause;

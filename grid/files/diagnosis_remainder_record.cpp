@@ -20,12 +20,9 @@ auto budget_line_record() {
   OPTIONAL(cause, "The cause.", cause_id_record())
   REQUIRED(mean_square_mm2, "Mean square at the tool.", kAnyNumber)
   REQUIRED(share, "Share of the total mean square.", kAnyNumber)
-  OPTIONAL(
-      without_mm, "Rms error of the tool as delivered if only this part is removed.", kNotNegative)
-  NAMED(optional,
-        "part_of_100_mm",
-        part_mm,
-        "Its effect on a part of 100 mm in the worst corner.",
+  OPTIONAL(without_mm, "Rms error of the tool as delivered if only this part is removed.",
+           kNotNegative)
+  NAMED(optional, "part_of_100_mm", part_mm, "Its effect on a part of 100 mm in the worst corner.",
         kNotNegative)
   REQUIRED(changes_with, "What it depends on.", by_name_to(BudgetLine::ChangesWith::direction));
 }
@@ -56,8 +53,7 @@ auto law_point_record() {
 
 auto law_errors_record() {
   RECORD(LawHeldOut::Errors, "readings that were left out")
-  REQUIRED(without_mm,
-           "Rms without the law: of the tool for chains, of distances, of one belt.",
+  REQUIRED(without_mm, "Rms without the law: of the tool for chains, of distances, of one belt.",
            kNotNegative)
   REQUIRED(with_mm, "Rms with the law.", kNotNegative);
 }
@@ -65,8 +61,7 @@ auto law_errors_record() {
 auto law_held_out_record() {
   RECORD(LawHeldOut, "how well a law predicts what was left out")
   REQUIRED(inside, "Every fourth place left out, four times.", law_errors_record())
-  REQUIRED(outside,
-           "The quarter of the bed on one side of a line left out, for sixteen lines.",
+  REQUIRED(outside, "The quarter of the bed on one side of a line left out, for sixteen lines.",
            law_errors_record());
 }
 
@@ -88,16 +83,8 @@ auto law_record() {
   REQUIRED(enters,
            "Where it enters: a chain, both equally, the tool along x or y, the tool along the "
            "law's own direction, the tool outwards over every border, one of four belts.",
-           by_name<Enters>({Enters::left,
-                            Enters::right,
-                            Enters::equal,
-                            Enters::x,
-                            Enters::y,
-                            Enters::along,
-                            Enters::outwards,
-                            Enters::tl,
-                            Enters::tr,
-                            Enters::bl,
+           by_name<Enters>({Enters::left, Enters::right, Enters::equal, Enters::x, Enters::y,
+                            Enters::along, Enters::outwards, Enters::tl, Enters::tr, Enters::bl,
                             Enters::br}))
   REQUIRED(probability, "Probability of this variable and place of entry, for any shape.", kShare)
   REQUIRED(shape_probability, "Probability of the shape, given these.", kShare)
@@ -106,8 +93,8 @@ auto law_record() {
            "For a kink: 1 if it acts beyond its place, -1 below; for an exponential: 1 if "
            "it is largest at the upper end of the range, -1 at the lower.",
            integer(-1, 1))
-  REQUIRED(
-      from, "Smallest value of the variable among the readings: mm, rad, N or visits.", kAnyNumber)
+  REQUIRED(from, "Smallest value of the variable among the readings: mm, rad, N or visits.",
+           kAnyNumber)
   REQUIRED(to, "Largest value of the variable.", kAnyNumber)
   REQUIRED(rms_mm, "Rms at the tool, after the settings have absorbed their share.", kNotNegative)
   REQUIRED(share, "Share of the mean square that the settings do not explain.", kShare)
@@ -135,10 +122,9 @@ auto cause_given_law_record() {
   REQUIRED(cause, "The effect, and its side.", cause_id_record())
   REQUIRED(probability, "Probability after the law is removed.", kShare)
   REQUIRED(without_law, "Probability of the same cause without the law.", kShare)
-  SPARSE(
-      same_as, "Causes that readings of this kind cannot distinguish from it.", cause_id_record())
-  SPARSE(parameters,
-         "Its parameters given the law, with sigmas; absent if it is not named then.",
+  SPARSE(same_as, "Causes that readings of this kind cannot distinguish from it.",
+         cause_id_record())
+  SPARSE(parameters, "Its parameters given the law, with sigmas; absent if it is not named then.",
          list(named_estimate_record(), 1));
 }
 
@@ -167,9 +153,7 @@ Record<Unexplained> unexplained_record() {
 
 Record<ErrorBudget> error_budget_record() {
   RECORD(ErrorBudget, "what the error is made of")
-  NAMED(required,
-        "as_delivered_mm",
-        uncalibrated_mm,
+  NAMED(required, "as_delivered_mm", uncalibrated_mm,
         "Rms error of the tool as delivered, at the measured "
         "points; tool_today is over the measured part.",
         kNotNegative)

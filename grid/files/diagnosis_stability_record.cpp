@@ -35,10 +35,7 @@ constexpr Numbered kNumbered[] = {
 void index_keys(Record<Removal>& record) {
   for (const Numbered& numbered : kNumbered) {
     record.computed(
-        numbered.key,
-        numbered.meaning,
-        false,
-        index_number(),
+        numbered.key, numbered.meaning, false, index_number(),
         [](Removal& object, std::size_t index) { object.index = index; },
         [what = numbered.what](const Removal& object) {
           if (object.what == what) return Json(object.index);
@@ -50,18 +47,14 @@ void index_keys(Record<Removal>& record) {
 /// The position of a column or row.
 void line_key(Record<Removal>& record) {
   record.computed(
-      "at_mm",
-      "x of a column, y of a row.",
-      false,
-      number(kMillimetres),
+      "at_mm", "x of a column, y of a row.", false, number(kMillimetres),
       [](Removal& object, double at_mm) { object.at_mm = at_mm; },
       [](const Removal& object) { return is_line(object) ? Json(object.at_mm) : Json(nullptr); });
 }
 
 auto removal_record() {
   RECORD(Removal, "points left out")
-  REQUIRED(what,
-           "What was left out.",
+  REQUIRED(what, "What was left out.",
            choice<Removal::What>({{"point", Removal::What::point},
                                   {"column", Removal::What::column},
                                   {"row", Removal::What::row},
@@ -74,8 +67,8 @@ auto removal_record() {
   REQUIRED(causes, "Causes named without it.", cause_id_record())
   REQUIRED(stands, "True if the answer is the same.")
   REQUIRED(probability, "Probability of the name without it.", kShare)
-  REQUIRED(
-      support, "Share of the log evidence that depends on it, in natural logarithms.", kAnyNumber)
+  REQUIRED(support, "Share of the log evidence that depends on it, in natural logarithms.",
+           kAnyNumber)
       .check([](const Cursor& at, Removal& object) {
         if (!at.clean() || !at.has("what")) return;
         const char* key = "at_mm";
@@ -113,8 +106,7 @@ Record<PartFinding> bed_part_record() {
   REQUIRED(towards_rad,
            "Direction of the quarter from the middle of the readings; from x towards y.",
            kAnyNumber)
-  ALSO(part_keys,
-       "Most probable cause without it; nothing if none is more likely than not.",
+  ALSO(part_keys, "Most probable cause without it; nothing if none is more likely than not.",
        "The named causes, with their probabilities without it.");
 }
 

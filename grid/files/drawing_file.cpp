@@ -29,11 +29,8 @@ struct DrawingInFile : TestDrawing {
 auto cross_record() {
   RECORD(DrawnCross, "a drawn cross")
   REQUIRED(name, "Its name on the sheet.")
-  FIELD(place,
-        &DrawnCross::commanded,
-        "Commanded x, to the right of the middle between the pins.",
-        "Commanded y, up from the pins, so negative below them.",
-        kPlaceMm);
+  FIELD(place, &DrawnCross::commanded, "Commanded x, to the right of the middle between the pins.",
+        "Commanded y, up from the pins, so negative below them.", kPlaceMm);
 }
 
 void check_middle(const Cursor& at, MeasureInFile& measure) {
@@ -49,8 +46,7 @@ auto measure_record() {
   using Kind = DrawnMeasure::Kind;
   using Measure = MeasureInFile;
   RECORD(Measure, "a measure on a drawing")
-  REQUIRED(kind,
-           "A length between two crosses, or the bow of a line.",
+  REQUIRED(kind, "A length between two crosses, or the bow of a line.",
            choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
   REQUIRED(from, "The first cross.")
   REQUIRED(to, "The last cross.")
@@ -96,10 +92,7 @@ const Record<DrawingInFile>& drawing_record() {
     RECORD(Drawing, "a test drawing", kDrawingFormat)
     SPARSE(name, "Name of the drawing.")
     FIELD(
-        computed,
-        "set",
-        "The plotter with the settings in force when the page was drawn.",
-        true,
+        computed, "set", "The plotter with the settings in force when the page was drawn.", true,
         object(set_plotter_record()),
         [](Drawing& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
         [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })

@@ -55,8 +55,7 @@ std::size_t in_file(const std::string& json, std::size_t begin, std::size_t offs
 }
 
 /// With line and column where the problem is in a formula.
-void add_problems(const std::string& text,
-                  const std::vector<DeclarationProblem>& found,
+void add_problems(const std::string& text, const std::vector<DeclarationProblem>& found,
                   Problems& problems) {
   for (const DeclarationProblem& problem : found) {
     std::string place = problem.place;
@@ -81,9 +80,7 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
   // Declaring the same effect again has no effect.
   if (known != nullptr && *known == &effect) return;
   if (known != nullptr) {
-    problems.add("/id",
-                 effect.id,
-                 ProblemKind::repeated_value,
+    problems.add("/id", effect.id, ProblemKind::repeated_value,
                  "a name that no other effect has; two have this name");
     return;
   }
@@ -92,9 +89,7 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
     return !instead_of.empty() && declaration_of(*other)->instead_of == instead_of;
   });
   if (taken) {
-    problems.add("/instead_of",
-                 instead_of,
-                 ProblemKind::repeated_value,
+    problems.add("/instead_of", instead_of, ProblemKind::repeated_value,
                  "an effect of the catalogue that no other effect replaces");
     return;
   }

@@ -44,35 +44,25 @@ auto parameter_record() {
            "per another as in mm_per_rad; any other end is a plain number.")
   SPARSE(symbol, "Its symbol in texts.")
   SPARSE(meaning, "What it is.")
-  OPTIONAL(role,
-           "size: how large the effect is. place: where or when it sets in.",
+  OPTIONAL(role, "size: how large the effect is. place: where or when it sets in.",
            choice<ParameterRole>({{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
   FIELD(
-      computed,
-      "null",
-      "The size at which there is no effect; default 0. A place has none.",
-      false,
-      number(kAnyNumber),
-      [](DeclaredParameter& p, double null) { p.null = null; },
+      computed, "null", "The size at which there is no effect; default 0. A place has none.", false,
+      number(kAnyNumber), [](DeclaredParameter& p, double null) { p.null = null; },
       [](const DeclaredParameter& p) {
         return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
       })
   FIELD(
-      computed,
-      "nominal",
+      computed, "nominal",
       "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
       "middle of its bounds.",
-      false,
-      number(kAnyNumber),
-      [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
+      false, number(kAnyNumber), [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
       [](const DeclaredParameter& p) { return p.nominal; })
-  REQUIRED(
-      prior_sigma, "Prior sigma: for a size about null, for a place about nominal.", kAnyNumber)
+  REQUIRED(prior_sigma, "Prior sigma: for a size about null, for a place about nominal.",
+           kAnyNumber)
   REQUIRED(lower, "The smallest value.", kAnyNumber)
   REQUIRED(upper, "The largest value.", kAnyNumber)
-  NAMED(optional,
-        "whole",
-        integer,
+  NAMED(optional, "whole", integer,
         "It takes whole numbers only; for effects on a reading or a visit.")
   OPTIONAL(mirror_sign, "-1 if the mirrored machine has the negative value.", {"", -1.0, 1.0})
       .check(check_parameter);
@@ -94,8 +84,8 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
   for (const DeclarationProblem& problem : found) {
     std::string place = at.pointer() + problem.place;
     if (problem.offset) place += fmt::format(", column {} of the formula", *problem.offset + 1);
-    at.problems().add(
-        std::move(place), problem.value, ProblemKind::bad_declaration, problem.expected);
+    at.problems().add(std::move(place), problem.value, ProblemKind::bad_declaration,
+                      problem.expected);
   }
 }
 
@@ -114,8 +104,7 @@ const Record<Declaration>& declaration_record() {
            "Where it may act, each side tested separately; both: one value for two. "
            "Default: on both equally.",
            list(by_name_to(EffectSide::y, EffectSide::left)))
-    REQUIRED(parameters,
-             "Its size, followed by the place where it sets in, if it has one.",
+    REQUIRED(parameters, "Its size, followed by the place where it sets in, if it has one.",
              parameter_record())
     SPARSE(adds_mm, "Formula for the amount added to a chain or a reading.")
     SPARSE(adds_x_mm, "Formula for the shift of a mark in x.")
@@ -125,8 +114,7 @@ const Record<Declaration>& declaration_record() {
            "everything that is added.")
     REQUIRED(cause, "The cause, as a diagnosis words it.")
     SPARSE(signature, "How it shows on the bed.")
-    OPTIONAL(remedy_kind,
-             "Where the remedy is applied.",
+    OPTIONAL(remedy_kind, "Where the remedy is applied.",
              by_name_to(model::effects::RemedyKind::compensate_on_its_own))
     REQUIRED(remedy, "What to do about it.")
     REQUIRED(not_modelled, "What the formula omits.")

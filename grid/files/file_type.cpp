@@ -102,8 +102,7 @@ std::string what_takes(std::string_view file_type) {
              ? fmt::format(
                    "; this is {}, not a measurement: use the input of chaintrue {}, or the file "
                    "that it wrote with -o",
-                   format->noun,
-                   format->verbs)
+                   format->noun, format->verbs)
              : fmt::format("; this is {}; did you mean chaintrue {}?", format->noun, format->verbs);
 }
 

@@ -19,9 +19,7 @@ bool is_fluidnc(const std::string& text) {
 ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   Problems problems(file);
   if (!is_fluidnc(text)) {
-    problems.add("",
-                 "no WallPlotter",
-                 ProblemKind::missing,
+    problems.add("", "no WallPlotter", ProblemKind::missing,
                  "kinematics: WallPlotter: with its anchors, as in FluidNC");
     problems.throw_if_any();
   }
@@ -48,11 +46,8 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
                 "FluidNC has no settings for the sled and chains. Assumed: a sled of {} kg, a "
                 "ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} kg/m, a frame that "
                 "leans {} degrees. Enter your values in the machine file",
-                machine.sled.mass_kg,
-                std::get<model::Ring>(machine.attachment).radius_mm,
-                machine.sprocket.teeth,
-                machine.sprocket.pitch_mm,
-                machine.chain.mass_kg_per_m,
+                machine.sled.mass_kg, std::get<model::Ring>(machine.attachment).radius_mm,
+                machine.sprocket.teeth, machine.sprocket.pitch_mm, machine.chain.mass_kg_per_m,
                 machine.frame.tilt_from_vertical_deg);
   settings.warn_of_others("describes where the sled hangs");
   read.warnings = problems.warnings();

@@ -25,16 +25,12 @@ struct Described {
 
 constexpr std::array kDescribed = {
     Described{
-        &kMachineFormat,
-        machine_schema,
-        "A machine",
+        &kMachineFormat, machine_schema, "A machine",
         "A machine. `chaintrue start` and `chaintrue import` write one from the controller's "
         "settings; `chaintrue start` without a file writes one to fill in. Ranges include every "
         "real hanging router. The motors must hang above the bed, the left one on the left."},
     Described{
-        &kGridFormat,
-        grid_schema,
-        "A grid of measured points",
+        &kGridFormat, grid_schema, "A grid of measured points",
         "Readings at marks: chain lengths, or positions of a commanded tool. `chaintrue plan` "
         "writes one to fill in, `simulate` and `import optical` write complete ones; `fit`, "
         "`diagnose` and `check` read them.\n\nAs CSV the first line names the columns, in any "
@@ -44,58 +40,40 @@ constexpr std::array kDescribed = {
         "unit (`12.5 cm`, `43 13/16 in`; a fraction is of an inch), a column may be in inches "
         "(`x_in`), and unknown columns, notes below the last row and lines that begin with # are "
         "ignored. A row without readings counts as not measured."},
-    Described{&kHolesFormat,
-              holes_schema,
-              "Holes and distances",
+    Described{&kHolesFormat, holes_schema, "Holes and distances",
               "Holes that the machine drilled, and taped distances between them. `chaintrue plan "
               "--holes` writes one to fill in; `fit`, `diagnose` and `check` read them.\n\nAs CSV "
               "it is two tables, one below the other: `hole`, `x_mm`, `y_mm`, and `from`, `to`, "
               "`distance_mm`, and optionally `sigma_mm`; the rest comes from options."},
-    Described{&kMapFormat,
-              map_schema,
-              "A compensation map",
+    Described{&kMapFormat, map_schema, "A compensation map",
               "The chain lengths for every place of the bed, with the map's error. `chaintrue "
               "fit` writes it; `query`, `gcode`, `report`, `check`, `export` and `square` read "
               "it. Do not edit it: a hash detects changes."},
-    Described{&kDiagnosisFormat,
-              diagnosis_schema,
-              "A diagnosis",
+    Described{&kDiagnosisFormat, diagnosis_schema, "A diagnosis",
               "The causes of a machine's error, and their probabilities. `chaintrue diagnose` "
               "writes it; `report`, `export` and `plan --after` read it. "
               "[diagnosis](../diagnosis.md) explains it."},
-    Described{&kSweepFormat,
-              sweep_schema,
-              "A sweep",
+    Described{&kSweepFormat, sweep_schema, "A sweep",
               "What `chaintrue sweep` simulates: all combinations of the lists' entries. See "
               "[sweeps](../sweeps.md)."},
-    Described{&kBeltsFormat,
-              belts_schema,
-              "Belt lengths of a router on four belts",
+    Described{&kBeltsFormat, belts_schema, "Belt lengths of a router on four belts",
               "The four belt lengths at places whose positions are unknown. `chaintrue import "
               "maslow4` writes one from the machine's log; `fit` estimates the anchors from it."},
-    Described{&kAnchorsFormat,
-              anchors_schema,
-              "Anchors of a router on four belts",
+    Described{&kAnchorsFormat, anchors_schema, "Anchors of a router on four belts",
               "The points where the belts leave the frame, their uncertainty and the readings "
               "behind them. `chaintrue fit` writes one from belt lengths; `export maslow4` prints "
               "the lines to paste. Do not edit it: a hash detects changes."},
-    Described{&kEffectFormat,
-              effect_schema,
-              "A declared effect",
+    Described{&kEffectFormat, effect_schema, "A declared effect",
               "A cause of error that is not in the catalogue: what it acts on, its size, its "
               "place, and a formula. `--effects` gives it to `diagnose`, `fit`, `simulate` and "
               "`effects`; [effects](../effects.md) explains formulas and has three examples."},
-    Described{&kPlotterFormat,
-              plotter_schema,
-              "A V-plotter",
+    Described{&kPlotterFormat, plotter_schema, "A V-plotter",
               "A plotter whose pen hangs on two cords, with the controller's settings and the "
               "results of a test drawing. `chaintrue import plotter` writes one from the "
               "controller's settings, `fit` adds the results; `start` and `export plotter` read "
               "it. See [plotters](../plotters.md). Places are measured from the middle between the "
               "two pins, x to the right, y up."},
-    Described{&kDrawingFormat,
-              drawing_schema,
-              "A test drawing",
+    Described{&kDrawingFormat, drawing_schema, "A test drawing",
               "A page drawn by a V-plotter, and its measures. `chaintrue start` writes one to "
               "fill in; `fit` reads it."},
 };
@@ -209,8 +187,7 @@ std::string one_of_words(const Json& names) {
   std::string words;
   for (const Json& name : names) {
     if (name.is_null()) continue;
-    words += fmt::format("{}`{}`",
-                         words.empty() ? "" : ", ",
+    words += fmt::format("{}`{}`", words.empty() ? "" : ", ",
                          name.is_string() ? name.get<std::string>() : compact_json(name));
   }
   return words;
@@ -286,16 +263,13 @@ class Tables {
  private:
   void table(const std::string& noun, const Json& schema) {
     const auto out = std::back_inserter(text_);
-    fmt::format_to(
-        out, "\n## {}\n\n| key | what it is | values | if absent |\n|---|---|---|---|\n", noun);
+    fmt::format_to(out, "\n## {}\n\n| key | what it is | values | if absent |\n|---|---|---|---|\n",
+                   noun);
     for (const auto& [key, property] : schema["properties"].items()) {
       if (key == "comment") continue;
-      fmt::format_to(out,
-                     "| `{}` | {} | {} | {} |\n",
-                     key,
+      fmt::format_to(out, "| `{}` | {} | {} | {} |\n", key,
                      property.value("description", std::string("Optional inside another file.")),
-                     values_of(property),
-                     absent_words(schema, key, property));
+                     values_of(property), absent_words(schema, key, property));
     }
   }
 
@@ -332,11 +306,7 @@ std::string write_format_page(std::string_view name) {
       "`comment`, which may contain anything; an optional key may also be null. `chaintrue formats "
       "{4} --schema` prints the JSON Schema, with which editors complete and check such files. "
       "`chaintrue formats {4}` writes this page from the reader's tables.\n",
-      d.title,
-      d.about,
-      d.format->file_type,
-      d.format->version,
-      name);
+      d.title, d.about, d.format->file_type, d.format->version, name);
   Tables(text).add(schema_with_units(d));
   return text;
 }

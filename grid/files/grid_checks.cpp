@@ -29,25 +29,18 @@ void check_parts(const StatedPoint& point, const std::string& place, Problems& p
   const bool lengths = point.left_mm && point.right_mm;
   const bool command = point.commanded_x_mm && point.commanded_y_mm;
   if (any_length && any_command) {
-    problems.add(place,
-                 "both lengths and a command",
-                 ProblemKind::contradiction,
+    problems.add(place, "both lengths and a command", ProblemKind::contradiction,
                  "either left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
   } else if (any_length && !lengths) {
-    problems.add(place,
-                 point.left_mm ? "left_mm without right_mm" : "right_mm without left_mm",
-                 ProblemKind::missing,
-                 "both lengths");
+    problems.add(place, point.left_mm ? "left_mm without right_mm" : "right_mm without left_mm",
+                 ProblemKind::missing, "both lengths");
   } else if (any_command && !command) {
     problems.add(place,
                  point.commanded_x_mm ? "commanded_x_mm without commanded_y_mm"
                                       : "commanded_y_mm without commanded_x_mm",
-                 ProblemKind::missing,
-                 "both coordinates of the command");
+                 ProblemKind::missing, "both coordinates of the command");
   } else if (!any_length && !any_command) {
-    problems.add(place,
-                 "neither lengths nor a command",
-                 ProblemKind::missing,
+    problems.add(place, "neither lengths nor a command", ProblemKind::missing,
                  "left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
   }
 }
@@ -65,8 +58,8 @@ std::optional<model::PerSide<Slope>> slopes_of(const std::vector<MeasuredPoint>&
   std::vector<Eigen::Vector4d> rows;
   for (const MeasuredPoint& point : points) {
     if (point.lengths)
-      rows.emplace_back(
-          point.mark.x_mm, point.mark.y_mm, point.lengths->left_mm, point.lengths->right_mm);
+      rows.emplace_back(point.mark.x_mm, point.mark.y_mm, point.lengths->left_mm,
+                        point.lengths->right_mm);
   }
   if (rows.size() < 3) return std::nullopt;
   Eigen::Vector4d mean = Eigen::Vector4d::Zero();
@@ -132,8 +125,7 @@ struct GridChecks {
       // Chains reach 2.5 to 3.7 m: 100 to 146 inches, or 250 centimetres and more.
       constexpr double kLongestChainInches = 150.0;
       problems.explain(
-          places.all,
-          ProblemKind::other_unit,
+          places.all, ProblemKind::other_unit,
           fmt::format(
               "These look like {}: multiply all of them by {}{} (coordinates reach {:.6g}, lengths "
               "{:.6g}).",
@@ -141,8 +133,7 @@ struct GridChecks {
               extent.length < kLongestChainInches ? "25.4" : "10",
               extent.length < kLongestChainInches ? input_checks::or_say_inches(places.written)
                                                   : "",
-              extent.coordinate,
-              extent.length));
+              extent.coordinate, extent.length));
       return true;
     }
     if (!slopes) return false;
@@ -151,15 +142,13 @@ struct GridChecks {
     if (!are_marks && most >= kUnitOver) return false;
     const double steepness = 0.5 * (least + most);
     problems.explain(
-        places.all,
-        ProblemKind::other_unit,
+        places.all, ProblemKind::other_unit,
         fmt::format(
             "{} look like {}, {} like mm (lengths that change by {:.3g} for each 1 of x_mm, "
             "y_mm, where 1 is usual).",
             are_marks ? "x_mm and y_mm" : "the lengths",
             unit_of(are_marks ? steepness : 1.0 / steepness),
-            are_marks ? "the lengths" : "x_mm and y_mm",
-            steepness));
+            are_marks ? "the lengths" : "x_mm and y_mm", steepness));
     return true;
   }
 
@@ -169,8 +158,7 @@ struct GridChecks {
     constexpr double kClearly = 0.3;
     const auto& [left, right] = slopes;
     if (left.per_y > kClearly && right.per_y < -kClearly && left.per_x < 0.0 && right.per_x < 0.0) {
-      problems.explain(places.all,
-                       ProblemKind::axes,
+      problems.explain(places.all, ProblemKind::axes,
                        "the two columns look swapped: left lengths grow and right ones shrink "
                        "with y_mm. x_mm counts to the right, y_mm up the sheet.");
       return true;
@@ -182,16 +170,14 @@ struct GridChecks {
     const auto& [left, right] = slopes;
     if (left.per_x < 0.0 && right.per_x > 0.0) {
       problems.explain(
-          places.all,
-          ProblemKind::sides_swapped,
+          places.all, ProblemKind::sides_swapped,
           "the columns left_mm and right_mm look swapped: left lengths shrink and right "
           "ones grow towards +x.");
     }
     constexpr double kClearly = 0.1;
     if (left.per_y > kClearly && right.per_y > kClearly) {
       problems.explain(
-          places.all,
-          ProblemKind::axes,
+          places.all, ProblemKind::axes,
           "y_mm looks counted downwards: both chains grow towards +y, where the motors "
           "are. y_mm counts up the sheet.");
     }
@@ -214,10 +200,7 @@ struct GridChecks {
     problems.warn(
         places.all,
         "all points are within {:.4g} x {:.4g} mm of a bed of {} x {} mm; are they in inches?",
-        2.0 * half_width_mm,
-        2.0 * half_height_mm,
-        bed.width_mm,
-        bed.height_mm);
+        2.0 * half_width_mm, 2.0 * half_height_mm, bed.width_mm, bed.height_mm);
     return true;
   }
 
@@ -236,8 +219,7 @@ struct GridChecks {
       problems.doubt(places.all, found.whole->sentence(), found.whole->kind);
     } else if (found.whole) {
       problems.explain(found.whole->from_row ? places.of(*found.whole->from_row, "") : places.all,
-                       found.whole->kind,
-                       found.whole->sentence());
+                       found.whole->kind, found.whole->sentence());
       return true;
     }
     for (const input_checks::RowFinding& row : found.rows) {
@@ -254,8 +236,7 @@ struct GridChecks {
 }  // namespace
 
 std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
-                                           const PointPlaces& places,
-                                           Problems& problems) {
+                                           const PointPlaces& places, Problems& problems) {
   std::vector<MeasuredPoint> points;
   std::vector<StatedOrder> orders;
   for (std::size_t i = 0; i < stated.size(); ++i) {
@@ -275,27 +256,21 @@ std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& state
   return points;
 }
 
-void check_points_together(const MeasuredGrid& grid,
-                           std::size_t fewest_points,
-                           const PointPlaces& places,
-                           Problems& problems) {
+void check_points_together(const MeasuredGrid& grid, std::size_t fewest_points,
+                           const PointPlaces& places, Problems& problems) {
   const std::size_t count = grid.points.size();
   if (count < fewest_points) {
-    problems.explain(places.all,
-                     ProblemKind::too_few,
+    problems.explain(places.all, ProblemKind::too_few,
                      fmt::format("{} filled in, and at least {} are needed: measure {} more.",
                                  count == 0   ? "No point is"
                                  : count == 1 ? "Only 1 point is"
                                               : fmt::format("Only {} points are", count),
-                                 fewest_points,
-                                 fewest_points - count));
+                                 fewest_points, fewest_points - count));
   }
   const bool has_commands =
       any_of(grid.points, [](const MeasuredPoint& point) { return point.commanded.has_value(); });
   if (has_commands && !grid.machine) {
-    problems.add(places.all,
-                 "commanded positions, but no machine",
-                 ProblemKind::missing,
+    problems.add(places.all, "commanded positions, but no machine", ProblemKind::missing,
                  "a machine with the controller that received the commands (\"machine\", "
                  "\"machine_file\" or --machine)");
   }
@@ -304,8 +279,7 @@ void check_points_together(const MeasuredGrid& grid,
   const bool is_tiny = count >= kFewestPoints && checks.warn_of_a_tiny_area();
   if (fewest_points < kFewestPoints || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistanceMm) {
-    problems.add(places.all,
-                 fmt::format("points within {:.3g} mm of one line", width),
+    problems.add(places.all, fmt::format("points within {:.3g} mm of one line", width),
                  ProblemKind::on_a_line,
                  std::string("points that span an area, which a map of the bed needs") +
                      (is_tiny ? "; are they in inches?" : ""));
@@ -350,9 +324,7 @@ void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Pr
   problems.warn(places.all,
                 "{} of {} points are copies of others, to the last digit of both "
                 "lengths, and count once ({}); a repeated measurement would differ",
-                points.size() - kept.size(),
-                points.size(),
-                example);
+                points.size() - kept.size(), points.size(), example);
   keep_only(kept, points, places.of);
 }
 

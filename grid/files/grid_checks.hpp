@@ -53,19 +53,15 @@ void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problem
 /// Checks that each point has both lengths or both commands, but not both pairs, and that either
 /// all points have distinct orders or none has one.
 std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
-                                           const PointPlaces& places,
-                                           Problems& problems);
+                                           const PointPlaces& places, Problems& problems);
 /// Checks the points together: enough of them, spread over an area, left and right not swapped, in
 /// mm. Call it only if no value had a problem.
-void check_points_together(const MeasuredGrid& grid,
-                           std::size_t fewest_points,
-                           const PointPlaces& places,
-                           Problems& problems);
+void check_points_together(const MeasuredGrid& grid, std::size_t fewest_points,
+                           const PointPlaces& places, Problems& problems);
 /// Warns of points within 25 mm of each other whose readings differ by more than the noise and the
 /// distance between them allow. The allowed change is the machine model's if the grid has a
 /// machine, otherwise the distance itself.
-void warn_of_repeats_that_disagree(const MeasuredGrid& grid,
-                                   const PointPlaces& places,
+void warn_of_repeats_that_disagree(const MeasuredGrid& grid, const PointPlaces& places,
                                    Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -28,14 +28,14 @@ auto noise_record() {
   RECORD(StatedNoise, "the noise")
   REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNoiseMm)
   REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNoiseMm)
-  OPTIONAL(
-      dof, "Degrees of freedom with which these are known; 15 means to about a fifth.", kNoiseDof);
+  OPTIONAL(dof, "Degrees of freedom with which these are known; 15 means to about a fifth.",
+           kNoiseDof);
 }
 
 auto sheet_uncertainty_record() {
   RECORD(SheetUncertainty, "the sheet's placement")
-  REQUIRED(
-      shift_mm, "Uncertainty of the sheet's position, 1 sigma on each axis.", {"mm", 0.0, 1000.0})
+  REQUIRED(shift_mm, "Uncertainty of the sheet's position, 1 sigma on each axis.",
+           {"mm", 0.0, 1000.0})
   REQUIRED(rotation_mrad, "Uncertainty of the sheet's rotation, 1 sigma.", {"mrad", 0.0, 500.0});
 }
 
@@ -50,8 +50,7 @@ const Record<StatedPoint>& point_record() {
              "Commanded x; the chain lengths are then those of the controller's kinematics.",
              kCoordinateMm)
     OPTIONAL(commanded_y_mm, "Commanded y, up.", kCoordinateMm)
-    OPTIONAL(order,
-             "Number of the visit. Either all points have one, all different, or none has.",
+    OPTIONAL(order, "Number of the visit. Either all points have one, all different, or none has.",
              integer(0, kLargestOrder));
   }();
   return record;
@@ -106,16 +105,11 @@ const Record<StatedGrid>& grid_record() {
              "Noise of the readings. Missing values are estimated from repeated visits, or "
              "assumed; none is taken below the rounding of the readings.",
              noise_record())
-    OPTIONAL(sheet,
-             "How accurately the marks' sheet was placed by hand; absent: exactly.",
+    OPTIONAL(sheet, "How accurately the marks' sheet was placed by hand; absent: exactly.",
              sheet_uncertainty_record())
     SPARSE(readings, "What was measured besides the points.", reading_record())
     FIELD(
-        custom,
-        "points",
-        "The measured points.",
-        true,
-        {"a list of points", points_schema},
+        custom, "points", "The measured points.", true, {"a list of points", points_schema},
         read_points,
         [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.lines); })
         .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
@@ -129,9 +123,7 @@ const Record<StatedGrid>& grid_record() {
 }
 
 /// The common part of JSON and CSV, once the fields are read.
-ReadGrid finish(StatedGrid grid,
-                PointPlaces places,
-                const MeasuredOptions& options,
+ReadGrid finish(StatedGrid grid, PointPlaces places, const MeasuredOptions& options,
                 Problems& problems) {
   std::vector<std::string> blanks;
   for (const StatedPoint& point : grid.lines) {
@@ -154,8 +146,7 @@ ReadGrid finish(StatedGrid grid,
   return {std::move(grid), problems.warnings()};
 }
 
-ReadGrid parse_json_grid(const std::string& text,
-                         const MeasuredOptions& options,
+ReadGrid parse_json_grid(const std::string& text, const MeasuredOptions& options,
                          Problems& problems) {
   const Json json = parse_json(text, problems);
   auto stated = grid_record().read(Cursor(json, problems), true);
@@ -166,8 +157,8 @@ ReadGrid parse_json_grid(const std::string& text,
 }
 
 /// A row without any of its readings is blank; one with half of them is reported.
-void take_blanks(
-    const CsvTable& table, std::size_t i, bool commanded, StatedPoint& point, Problems& problems) {
+void take_blanks(const CsvTable& table, std::size_t i, bool commanded, StatedPoint& point,
+                 Problems& problems) {
   if (point.is_spoilt) return;
   const std::size_t first = commanded ? 0 : 2;  // columns x_mm and y_mm, or left_mm and right_mm
   const auto& row = table.rows[i];
@@ -178,16 +169,11 @@ void take_blanks(
   constexpr const char* kNames[] = {"x_mm", "y_mm", "left_mm", "right_mm"};
   const std::size_t missing = row[first] ? first + 1 : first;
   const Range& range = commanded ? kCoordinateMm : kLengthMm;
-  problems.add(table.cells[i][missing].place(),
-               "",
-               ProblemKind::left_blank,
-               "{} ({}), or both left blank",
-               range.expected(),
-               kNames[missing]);
+  problems.add(table.cells[i][missing].place(), "", ProblemKind::left_blank,
+               "{} ({}), or both left blank", range.expected(), kNames[missing]);
 }
 
-ReadGrid parse_csv_grid(const std::string& text,
-                        const MeasuredOptions& options,
+ReadGrid parse_csv_grid(const std::string& text, const MeasuredOptions& options,
                         Problems& problems) {
   constexpr std::size_t kOrder = 4;
   // Lengths are required unless the header has commands in their place.
@@ -206,14 +192,9 @@ ReadGrid parse_csv_grid(const std::string& text,
   StatedGrid stated;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto& row = table.rows[i];
-    StatedPoint point{row[0].value_or(0.0),
-                      row[1].value_or(0.0),
-                      row[2],
-                      row[3],
-                      row[5],
-                      row[6],
-                      {},
-                      !table.clean[i]};
+    StatedPoint point{
+        row[0].value_or(0.0), row[1].value_or(0.0), row[2], row[3], row[5], row[6], {},
+        !table.clean[i]};
     take_blanks(table, i, commanded, point, problems);
     if (row[kOrder]) {
       if (*row[kOrder] == std::floor(*row[kOrder])) {
@@ -228,9 +209,7 @@ ReadGrid parse_csv_grid(const std::string& text,
   }
   if (table.rows.empty()) {
     if (!problems.any())
-      problems.add("",
-                   "a header line only",
-                   ProblemKind::empty_file,
+      problems.add("", "a header line only", ProblemKind::empty_file,
                    "at least one line of numbers below it");
     problems.throw_if_any();
   }
@@ -247,8 +226,7 @@ ReadGrid parse_csv_grid(const std::string& text,
 
 }  // namespace
 
-ReadGrid parse_grid(const std::string& text,
-                    const std::string& file,
+ReadGrid parse_grid(const std::string& text, const std::string& file,
                     const MeasuredOptions& options) {
   Problems problems(file);
   return is_json(text) ? parse_json_grid(text, options, problems)

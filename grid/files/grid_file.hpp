@@ -38,8 +38,7 @@ struct ReadGrid {
 /// mistakes (left and right columns swapped, inches for mm, decimal commas). `file` is the name used
 /// in messages; a "machine_file" is looked for in its folder. \throws InputError with every problem
 /// of the file.
-ReadGrid parse_grid(const std::string& text,
-                    const std::string& file,
+ReadGrid parse_grid(const std::string& text, const std::string& file,
                     const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 std::string write_grid(const MeasuredGrid& grid);

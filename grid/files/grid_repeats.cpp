@@ -87,11 +87,8 @@ std::string difference_in_words(double mm) {
   return mm < kMetreMm ? fmt::format("{:.2f} mm", mm) : fmt::format("{:.1f} m", mm / kMetreMm);
 }
 
-void warn_of_pair(const Comparison& comparison,
-                  const Compared& a,
-                  const Compared& b,
-                  const PointPlaces& places,
-                  Problems& problems) {
+void warn_of_pair(const Comparison& comparison, const Compared& a, const Compared& b,
+                  const PointPlaces& places, Problems& problems) {
   const double apart_mm = std::hypot(a.mark.x_mm - b.mark.x_mm, a.mark.y_mm - b.mark.y_mm);
   const double allowed_mm =
       kSigmas * std::sqrt(2.0) * comparison.sigma_mm + comparison.change_per_mm * apart_mm;
@@ -109,11 +106,8 @@ void warn_of_pair(const Comparison& comparison,
   problems.warn(places.of(b.index, ""),
                 "this mark was also measured at {}, and the two readings differ by {} ({}); at "
                 "most {:.1f} mm is normal{}. Is a digit or a minus wrong in one of them?",
-                places.of(a.index, ""),
-                difference_in_words(most_mm),
-                comparison.names[worse],
-                allowed_mm,
-                apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm));
+                places.of(a.index, ""), difference_in_words(most_mm), comparison.names[worse],
+                allowed_mm, apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm));
 }
 
 void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& problems) {
@@ -129,9 +123,8 @@ void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& p
         return;
       }
       const auto& [first, second] =
-          std::minmax(readings[i], readings[j], [](const Compared& a, const Compared& b) {
-            return a.index < b.index;
-          });
+          std::minmax(readings[i], readings[j],
+                      [](const Compared& a, const Compared& b) { return a.index < b.index; });
       warn_of_pair(comparison, first, second, places, problems);
     }
   }
@@ -139,8 +132,7 @@ void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& p
 
 }  // namespace
 
-void warn_of_repeats_that_disagree(const MeasuredGrid& grid,
-                                   const PointPlaces& places,
+void warn_of_repeats_that_disagree(const MeasuredGrid& grid, const PointPlaces& places,
                                    Problems& problems) {
   const StatedNoise noise = grid.noise.value_or(StatedNoise{});
   warn_of_pairs(compare_lengths(grid, noise), places, problems);

@@ -41,9 +41,7 @@ class Lines {
   void section(const std::string& name) {
     out_.text += fmt::format("{}[{}]\n", out_.text.empty() ? "" : "\n", name);
   }
-  void number(const std::string& key,
-              double value,
-              std::optional<double> now,
+  void number(const std::string& key, double value, std::optional<double> now,
               std::string_view by) {
     const std::string typed = to_type(value);
     // The settings went through sines and sums on their way to the machine and back; 1e-9 of them
@@ -60,9 +58,7 @@ class Lines {
   void word(const std::string& key, const std::string& word) {
     out_.text += fmt::format("{} = {}\n", key, word);
   }
-  void changes(std::string_view key,
-               const std::string& from,
-               const std::string& to,
+  void changes(std::string_view key, const std::string& from, const std::string& to,
                std::string_view by) {
     out_.remarks.push_back(fmt::format("{} changes from {} to {}, by {}", key, from, to, by));
   }
@@ -120,8 +116,8 @@ ControllerSettings measures_as_settings(const Machine& machine) {
 }
 
 GroundcontrolText write_groundcontrol(const Machine& machine) {
-  return write_groundcontrol_settings(
-      machine, measures_as_settings(machine), "the machine's dimensions");
+  return write_groundcontrol_settings(machine, measures_as_settings(machine),
+                                      "the machine's dimensions");
 }
 
 bool says_more_than_its_settings(const Machine& machine) {
@@ -162,20 +158,15 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
   lines.section("Advanced Settings");
   lines.word("kinematicstype", has_ring ? "Triangular" : "Quadrilateral");
   if (has_ring) numbers({"rotationradius"});
-  numbers({"chainsagcorrection",
-           "topbeamtilt",
-           "chainpitch",
-           "gearteeth",
-           "leftchaintolerance",
-           "rightchaintolerance",
-           "sledweight"});
+  numbers({"chainsagcorrection", "topbeamtilt", "chainpitch", "gearteeth", "leftchaintolerance",
+           "rightchaintolerance", "sledweight"});
   if (settings.chain_elongation_per_n) {
     const std::string typed = fmt::format("{}", *settings.chain_elongation_per_n);
     lines.word("chainelongationfactor", typed);
     if (now.chain_elongation_per_n &&
         *now.chain_elongation_per_n != *settings.chain_elongation_per_n)
-      lines.changes(
-          "chainelongationfactor", fmt::format("{}", *now.chain_elongation_per_n), typed, by);
+      lines.changes("chainelongationfactor", fmt::format("{}", *now.chain_elongation_per_n), typed,
+                    by);
   }
   lines.word("chainoversprocket",
              settings.chain_over_sprocket_top.value_or(machine.feed == model::Feed::over_top)

@@ -79,8 +79,7 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
     problems.warn(place,
                   "encodersteps {:g}: not the standard Maslow motors, which turn once "
                   "in {:g} counts; assumed right for yours",
-                  *counts,
-                  kCountsOfATurn);
+                  *counts, kCountsOfATurn);
     return 0.0;
   }
   problems.warn(
@@ -88,21 +87,14 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
       "encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs out than the "
       "controller counts; entered as links that are {} by this amount (/effects). An export "
       "corrects for it; if you set {:g} at the machine instead, import its settings again",
-      *counts,
-      kCountsOfATurn,
-      100.0 * std::abs(more),
-      more > 0.0 ? "more" : "less",
-      more > 0.0 ? "longer" : "shorter",
-      kCountsOfATurn);
+      *counts, kCountsOfATurn, 100.0 * std::abs(more), more > 0.0 ? "more" : "less",
+      more > 0.0 ? "longer" : "shorter", kCountsOfATurn);
   return more;
 }
 
 /// A tolerance other than 0 is the pitch that the owner measured for this chain.
-void state_pitch(const ControllerSettings& numbers,
-                 Tolerances tolerances,
-                 double more_by_encoder,
-                 Machine& machine,
-                 Problems& problems) {
+void state_pitch(const ControllerSettings& numbers, Tolerances tolerances, double more_by_encoder,
+                 Machine& machine, Problems& problems) {
   std::vector<std::string> links;
   for (const auto& [stated, side] : {std::pair(numbers.left_chain_tolerance_percent, "left"),
                                      std::pair(numbers.right_chain_tolerance_percent, "right")}) {
@@ -114,15 +106,13 @@ void state_pitch(const ControllerSettings& numbers,
          side,
          {{"elongation", more_by_encoder == 0.0 ? percent / 100.0 : elongation}}});
     if (percent == 0.0) continue;
-    links.push_back(fmt::format(
-        "{:g} % {} ({})", std::abs(percent), percent > 0.0 ? "longer" : "shorter", side));
+    links.push_back(fmt::format("{:g} % {} ({})", std::abs(percent),
+                                percent > 0.0 ? "longer" : "shorter", side));
   }
   if (links.empty()) return;
   const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
-  problems.warn("",
-                "chain tolerance: links {} than new, each value within {:g} % (/effects)",
-                fmt::join(links, " and "),
-                100.0 * effect->parameters.front().prior_sigma);
+  problems.warn("", "chain tolerance: links {} than new, each value within {:g} % (/effects)",
+                fmt::join(links, " and "), 100.0 * effect->parameters.front().prior_sigma);
 }
 
 /// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
@@ -152,8 +142,7 @@ void weigh(const ControllerSettings& numbers, Machine& machine, Problems& proble
   assume(fmt::format(
       "how accurately the machine was measured; assumed: motor positions within {} mm, chain "
       "zeros within {} mm and the ring's radius within {} mm, 1 sigma (/uncertainty)",
-      machine.uncertainty.motor_position_mm,
-      machine.uncertainty.chain_zero_mm,
+      machine.uncertainty.motor_position_mm, machine.uncertainty.chain_zero_mm,
       machine.uncertainty.ring_radius_mm));
 }
 
@@ -187,8 +176,7 @@ class OldReleases {
   }
   void say() const {
     if (assumed_.empty()) return;
-    problems_.warn("",
-                   "assumed, as in releases of GroundControl without this setting: {}",
+    problems_.warn("", "assumed, as in releases of GroundControl without this setting: {}",
                    fmt::join(assumed_, ", "));
   }
 
@@ -225,19 +213,15 @@ void check_sag(SettingReader& settings, const Machine& machine, Problems& proble
                 "chainsagcorrection {:g}: the weights of chain and sled suggest "
                 "{:.1f}. A calibration that compensates other errors can produce such "
                 "a number; it is kept as the controller's setting",
-                set,
-                own);
+                set, own);
 }
 
 /// start and plan send the sled over the whole bed.
-void check_reach(double chain_mm,
-                 const Machine& machine,
-                 SettingReader& settings,
+void check_reach(double chain_mm, const Machine& machine, SettingReader& settings,
                  Problems& problems) {
   const double longest_mm = longest_chain_mm(machine);
   if (longest_mm <= chain_mm) return;
-  problems.add(settings.look("chainlength")->place,
-               fmt::format("chainlength {:g}", chain_mm),
+  problems.add(settings.look("chainlength")->place, fmt::format("chainlength {:g}", chain_mm),
                ProblemKind::out_of_range,
                "at least {:.0f} mm to reach the lower corners of the bed; correct the "
                "chain's length or the size of the bed",
@@ -265,13 +249,10 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   if (const auto unit = other_unit_of(settings)) {
     const SettingText* width = settings.look("bedwidth");
     problems.explain(
-        width->place,
-        ProblemKind::other_unit,
+        width->place, ProblemKind::other_unit,
         fmt::format("the lengths of this file look like {} (bedwidth = {}): multiply them "
                     "by {:g}.",
-                    unit->word,
-                    width->text,
-                    unit->mm));
+                    unit->word, width->text, unit->mm));
     problems.throw_if_any();
   }
   OldReleases old(settings, problems);
@@ -280,10 +261,8 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   const bool over_top = old.word("chainoversprocket", {"Top", "Bottom"}) == "Top";
   const ControllerSettings numbers = read_numbers(settings, has_brackets, old);
   if (const auto teeth = numbers.gear_teeth; teeth && *teeth != std::floor(*teeth)) {
-    problems.add(settings.look("gearteeth")->place,
-                 fmt::format("{}", *teeth),
-                 ProblemKind::out_of_range,
-                 "a whole number (gearteeth)");
+    problems.add(settings.look("gearteeth")->place, fmt::format("{}", *teeth),
+                 ProblemKind::out_of_range, "a whole number (gearteeth)");
   }
   const double more_by_encoder_turn = more_by_encoder(settings, problems);
   const auto chain_mm = settings.find("chainlength", {"mm", 100.0, 40000.0});
@@ -303,8 +282,7 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   return read;
 }
 
-ReadMachine parse_groundcontrol(const std::string& text,
-                                const std::string& file,
+ReadMachine parse_groundcontrol(const std::string& text, const std::string& file,
                                 Tolerances tolerances) {
   Problems problems(file);
   refuse_foreign_settings(text, problems);

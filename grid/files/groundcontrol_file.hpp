@@ -50,8 +50,7 @@ enum class Tolerances { are_pitch, unexplained };
 /// `file` is the name used in messages and, without its folder, the machine's. The warnings list
 /// what was assumed. \throws InputError with every problem of the file: missing settings, wrong
 /// types, inches, values out of range.
-ReadMachine parse_groundcontrol(const std::string& text,
-                                const std::string& file,
+ReadMachine parse_groundcontrol(const std::string& text, const std::string& file,
                                 Tolerances tolerances = Tolerances::are_pitch);
 
 /// The machine's own measures as settings: motors, ring or sled, sprocket, the sag of the chain's weight where

@@ -87,8 +87,7 @@ struct HolesChecks {
     const double share = farthest_mm / half_width_mm;
     if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
     problems.explain(
-        places.holes,
-        ProblemKind::other_unit,
+        places.holes, ProblemKind::other_unit,
         fmt::format("these and their distances look like {} (no hole is farther than {:.4g} "
                     "from the middle).",
                     share < kOfInches ? "inches: multiply them by 25.4"
@@ -104,8 +103,7 @@ struct HolesChecks {
       problems.explain(found.whole->from_row
                            ? places.distance(*found.whole->from_row, "distance_mm")
                            : places.distances,
-                       found.whole->kind,
-                       found.whole->sentence());
+                       found.whole->kind, found.whole->sentence());
     }
     return std::move(found.rows);
   }
@@ -117,15 +115,12 @@ struct HolesChecks {
       const HoleDistance& distance = set.distances[i];
       if (distance.edge || commanded_mm(set, distance) >= kLeastMm) continue;
       problems.add(places.distance(i, ""),
-                   fmt::format("{}, {:.4g} mm apart as commanded",
-                               words_of(set, distance),
+                   fmt::format("{}, {:.4g} mm apart as commanded", words_of(set, distance),
                                commanded_mm(set, distance)),
                    ProblemKind::out_of_range,
                    "two holes at least {:.0f} mm apart; holes {} and {} are at the same "
                    "spot: is a minus missing at one of them?",
-                   kLeastMm,
-                   set.holes[distance.from].name,
-                   set.holes[distance.to].name);
+                   kLeastMm, set.holes[distance.from].name, set.holes[distance.to].name);
     }
   }
 
@@ -157,18 +152,14 @@ struct HolesChecks {
         for (const input_checks::RowFinding& row : asked) {
           if (contains(sides, row.row)) question += fmt::format(". {}", row.sentence);
         }
-        problems.add(places.distance(sides[0], "distance_mm"),
-                     fmt::format("{:g}", set.distances[sides[0]].distance_mm),
-                     ProblemKind::contradiction,
-                     "at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
-                     "{} ({:g}); one of the three was misread{}",
-                     set.distances[sides[0]].distance_mm - excess,
-                     words_of(set, set.distances[sides[0]]),
-                     words_of(set, set.distances[sides[1]]),
-                     set.distances[sides[1]].distance_mm,
-                     words_of(set, set.distances[sides[2]]),
-                     set.distances[sides[2]].distance_mm,
-                     question);
+        problems.add(
+            places.distance(sides[0], "distance_mm"),
+            fmt::format("{:g}", set.distances[sides[0]].distance_mm), ProblemKind::contradiction,
+            "at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
+            "{} ({:g}); one of the three was misread{}",
+            set.distances[sides[0]].distance_mm - excess, words_of(set, set.distances[sides[0]]),
+            words_of(set, set.distances[sides[1]]), set.distances[sides[1]].distance_mm,
+            words_of(set, set.distances[sides[2]]), set.distances[sides[2]].distance_mm, question);
       }
     }
   }
@@ -198,12 +189,10 @@ struct HolesChecks {
                               : fmt::format(
                                     "; cut at least {} holes, of which {} distances are "
                                     "independent",
-                                    (fewest + 4) / 2,
-                                    2 * ((fewest + 4) / 2) - 3);
+                                    (fewest + 4) / 2, 2 * ((fewest + 4) / 2) - 3);
     problems.add(places.distances,
                  fmt::format("{} independent distance{}", independent, independent == 1 ? "" : "s"),
-                 ProblemKind::too_few,
-                 expected);
+                 ProblemKind::too_few, expected);
   }
 
   /// Without the offset the map would be distorted by the same amount.
@@ -211,8 +200,7 @@ struct HolesChecks {
     const auto offset = suspected_tape_zero_offset_mm(set);
     if (!offset) return;
     const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
-                                          std::abs(*offset),
-                                          *offset > 0.0 ? "longer" : "shorter");
+                                          std::abs(*offset), *offset > 0.0 ? "longer" : "shorter");
     double total_mm = set.tape.tape_zero_offset_mm + *offset;
     // Tapes are held at a printed mark; a machine is off by a centimetre at most.
     constexpr double kAtTheMarkMm = 15.0;
@@ -226,13 +214,10 @@ struct HolesChecks {
     if (is_stated) {
       problems.warn(places.distances,
                     "{}, whatever their length. Was the hook's offset subtracted twice? If so, {}.",
-                    found,
-                    state);
+                    found, state);
       return;
     }
-    problems.add(places.distances,
-                 found,
-                 ProblemKind::constant_offset,
+    problems.add(places.distances, found, ProblemKind::constant_offset,
                  "the tape's hook offset, because short and long ones are off by the "
                  "same amount: {}; 0 if they are right",
                  state);
@@ -271,26 +256,20 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     if (holes[i].name.empty()) holes[i].name = fmt::format("{}", i);
     const std::string& name = holes[i].name;
     if (edge_of(name)) {
-      problems.add(places.hole(i),
-                   name,
-                   ProblemKind::repeated_value,
+      problems.add(places.hole(i), name, ProblemKind::repeated_value,
                    "a name that is not an edge of the sheet");
     }
     const auto [other, is_new] = first.emplace(name, i);
     if (!is_new) {
-      problems.add(places.hole(i),
-                   name,
-                   ProblemKind::repeated_value,
-                   "a different name for each hole; {} has the same",
-                   places.hole(other->second));
+      problems.add(places.hole(i), name, ProblemKind::repeated_value,
+                   "a different name for each hole; {} has the same", places.hole(other->second));
     }
   }
 }
 
 std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& stated,
                                              const std::vector<Hole>& holes,
-                                             const HolesPlaces& places,
-                                             Problems& problems) {
+                                             const HolesPlaces& places, Problems& problems) {
   std::vector<HoleDistance> distances;
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const StatedDistance& from = stated[i];
@@ -302,24 +281,17 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
       const auto end = hole_of(from.to, holes);
       distance.edge = edge_of(from.to);
       if (!start) {
-        problems.add(places.distance(i, "from"),
-                     from.from,
-                     ProblemKind::unknown_word,
-                     "a hole that was cut: {}",
-                     names_of(holes));
+        problems.add(places.distance(i, "from"), from.from, ProblemKind::unknown_word,
+                     "a hole that was cut: {}", names_of(holes));
       }
       if (!end && !distance.edge) {
-        problems.add(places.distance(i, "to"),
-                     from.to,
-                     ProblemKind::unknown_word,
+        problems.add(places.distance(i, "to"), from.to, ProblemKind::unknown_word,
                      "a hole that was cut ({}) or an edge of the sheet (left, right, "
                      "top, bottom)",
                      names_of(holes));
       }
       if (start && end && *start == *end) {
-        problems.add(places.distance(i, "to"),
-                     from.to,
-                     ProblemKind::repeated_value,
+        problems.add(places.distance(i, "to"), from.to, ProblemKind::repeated_value,
                      "a hole different from the distance's start");
       }
       distance.from = start.value_or(0);
@@ -330,11 +302,8 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
   return distances;
 }
 
-void check_holes_together(const MeasuredHoles& set,
-                          std::size_t fewest_distances,
-                          bool tape_zero_is_stated,
-                          const HolesPlaces& places,
-                          Problems& problems) {
+void check_holes_together(const MeasuredHoles& set, std::size_t fewest_distances,
+                          bool tape_zero_is_stated, const HolesPlaces& places, Problems& problems) {
   const HolesChecks checks{set, places, problems};
   checks.check_apart();
   if (problems.any()) return;
@@ -342,8 +311,8 @@ void check_holes_together(const MeasuredHoles& set,
   if (problems.any() || checks.check_other_unit()) return;
   checks.check_triangles(asked);
   for (const input_checks::RowFinding& row : asked)
-    problems.doubt(
-        places.distance(row.row, "distance_mm"), row.sentence, ProblemKind::doubtful_row);
+    problems.doubt(places.distance(row.row, "distance_mm"), row.sentence,
+                   ProblemKind::doubtful_row);
   checks.check_enough(fewest_distances);
   if (!problems.any()) checks.check_tape_zero(tape_zero_is_stated);
 }

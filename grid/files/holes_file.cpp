@@ -13,9 +13,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// The common part of JSON and CSV, once the fields are read.
-ReadHoles finish(StatedHoles set,
-                 HolesPlaces places,
-                 const MeasuredOptions& options,
+ReadHoles finish(StatedHoles set, HolesPlaces places, const MeasuredOptions& options,
                  Problems& problems) {
   std::vector<std::string> blanks;
   for (const StatedDistance& line : set.lines) {
@@ -45,21 +43,18 @@ ReadHoles finish(StatedHoles set,
   return {std::move(set), std::move(belt_machine), problems.warnings()};
 }
 
-ReadHoles parse_json_holes(const std::string& text,
-                           const MeasuredOptions& options,
+ReadHoles parse_json_holes(const std::string& text, const MeasuredOptions& options,
                            Problems& problems) {
   const Json json = parse_json(text, problems);
   auto stated = holes_record().read(Cursor(json, problems), true);
   if (!stated) problems.throw_if_any();
-  const HolesPlaces places{"/holes",
-                           "/distances",
+  const HolesPlaces places{"/holes", "/distances",
                            [](std::size_t index) { return fmt::format("/holes/{}", index); },
                            place_in_json("/distances")};
   return finish(std::move(stated.value()), places, options, problems);
 }
 
-ReadHoles parse_csv_holes(const std::string& text,
-                          const MeasuredOptions& options,
+ReadHoles parse_csv_holes(const std::string& text, const MeasuredOptions& options,
                           Problems& problems) {
   HolesTables tables =
       read_holes_tables(text, options.inches ? input_checks::kMmPerInch : 1.0, problems);
@@ -68,8 +63,7 @@ ReadHoles parse_csv_holes(const std::string& text,
 
 }  // namespace
 
-ReadHoles parse_holes(const std::string& text,
-                      const std::string& file,
+ReadHoles parse_holes(const std::string& text, const std::string& file,
                       const MeasuredOptions& options) {
   Problems problems(file);
   return is_json(text) ? parse_json_holes(text, options, problems)
@@ -84,8 +78,7 @@ StatedHoles stated_holes(const MeasuredHoles& set) {
     stated.lines.push_back(
         {set.holes.at(distance.from).name,
          distance.edge ? std::string(name(*distance.edge)) : set.holes.at(distance.to).name,
-         distance.distance_mm,
-         distance.sigma_mm});
+         distance.distance_mm, distance.sigma_mm});
   }
   return stated;
 }

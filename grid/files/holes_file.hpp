@@ -53,8 +53,7 @@ struct ReadHoles {
 /// Messages name recognised mistakes (inches, a triangle that cannot close, a tape zero offset that
 /// was forgotten). `file` is the name used in messages; a "machine_file" is looked for in its folder.
 /// \throws InputError with every problem.
-ReadHoles parse_holes(const std::string& text,
-                      const std::string& file,
+ReadHoles parse_holes(const std::string& text, const std::string& file,
                       const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 std::string write_holes(const MeasuredHoles& holes,

@@ -15,16 +15,10 @@ auto tape_record() {
   OPTIONAL(sigma_mm,
            "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
            kTapeSigmaMm)
-  NAMED(optional,
-        "hook_offset_mm",
-        tape_zero_offset_mm,
-        "Amount by which each reading exceeds the distance.",
-        kTapeZeroOffsetMm)
-  NAMED(optional,
-        "hook_sigma_mm",
-        tape_zero_offset_sigma_mm,
-        "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
-        kHoleSigmaMm);
+  NAMED(optional, "hook_offset_mm", tape_zero_offset_mm,
+        "Amount by which each reading exceeds the distance.", kTapeZeroOffsetMm)
+  NAMED(optional, "hook_sigma_mm", tape_zero_offset_sigma_mm,
+        "Uncertainty of the hook offset, 1 sigma; default 3 mm.", kHoleSigmaMm);
 }
 
 auto sheet_record() {
@@ -37,10 +31,7 @@ auto sheet_record() {
 Record<Hole> hole_record() {
   RECORD(Hole, "a hole")
   SPARSE(name, "Any word; without names the holes are numbered from 0.")
-  FIELD(place,
-        &Hole::commanded,
-        "Commanded x of the hole.",
-        "Commanded y of the hole, up.",
+  FIELD(place, &Hole::commanded, "Commanded x of the hole.", "Commanded y of the hole, up.",
         kCoordinateMm);
 }
 
@@ -62,8 +53,7 @@ auto distance_record() {
   RECORD(StatedDistance, "a distance")
   REQUIRED(from, "A hole's name or number.", hole_word())
   REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.", hole_word())
-  REQUIRED(distance_mm,
-           "The tape reading between the holes' centres. Null if not measured yet.",
+  REQUIRED(distance_mm, "The tape reading between the holes' centres. Null if not measured yet.",
            kTapeDistance)
   OPTIONAL(sigma_mm, "Noise of this reading, if it differs from the tape's.", kTapeSigmaMm)
       .check([](const Cursor& at, StatedDistance& own) { own.is_spoilt = !at.clean(); });
@@ -93,18 +83,14 @@ const Record<StatedHoles>& holes_record() {
   static const auto record = [] {
     RECORD(StatedHoles, "a set of holes", kHolesFormat)
     OPTIONAL(name, "Name of the set.")
-    FIELD(custom,
-          "machine",
-          "The machine with its settings in force; or machine_file.",
-          false,
+    FIELD(custom, "machine", "The machine with its settings in force; or machine_file.", false,
           {machine_record().expected().words + ", or one with four belts",
            [] {
              return Json{{"anyOf",
                           {machine_record().expected().schema(),
                            belt_machine_record().expected().schema()}}};
            }},
-          read_stated_machine,
-          written_stated_machine)
+          read_stated_machine, written_stated_machine)
     SPARSE(machine_file, "Path of the machine file, from this file.")
     OPTIONAL(tape, "Noise and hook offset of the tape.", tape_record())
     OPTIONAL(hole_sigma_mm,
@@ -115,10 +101,7 @@ const Record<StatedHoles>& holes_record() {
     OPTIONAL(sheet, "Size of the sheet, for distances to its edges.", sheet_record())
     SPARSE(readings, "What was measured besides the distances.", reading_record())
     REQUIRED(holes, "The holes as commanded.", hole_record())
-    NAMED(required,
-          "distances",
-          lines,
-          "The distances between them, and to edges.",
+    NAMED(required, "distances", lines, "The distances between them, and to edges.",
           distance_record())
         .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
         .check([](const Cursor& at, StatedHoles& stated) {

@@ -48,17 +48,13 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
 /// Reports ends that are neither a hole nor an edge, and distances from a hole to itself.
 std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& stated,
                                              const std::vector<Hole>& holes,
-                                             const HolesPlaces& places,
-                                             Problems& problems);
+                                             const HolesPlaces& places, Problems& problems);
 /// Warns of distances that equal the commanded ones exactly.
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems);
 /// Units, triangles, a forgotten zero offset of the tape, and too few distances. A doubtful stated
 /// offset gives only a warning. Call it only if there are no earlier problems.
-void check_holes_together(const MeasuredHoles& set,
-                          std::size_t fewest_distances,
-                          bool tape_zero_is_stated,
-                          const HolesPlaces& places,
-                          Problems& problems);
+void check_holes_together(const MeasuredHoles& set, std::size_t fewest_distances,
+                          bool tape_zero_is_stated, const HolesPlaces& places, Problems& problems);
 
 inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
 

@@ -59,11 +59,8 @@ std::vector<CsvRow> filled_rows(std::vector<CsvRow> rows) {
 }
 
 /// The hole at these coordinates, given its first cell. If there is one already, its name is used.
-std::string hole_at(std::optional<double> x_mm,
-                    std::optional<double> y_mm,
-                    const CsvCell& cell,
-                    std::vector<Hole>& holes,
-                    std::vector<CsvCell>& cells) {
+std::string hole_at(std::optional<double> x_mm, std::optional<double> y_mm, const CsvCell& cell,
+                    std::vector<Hole>& holes, std::vector<CsvCell>& cells) {
   const model::BedPoint at{x_mm.value_or(0.0), y_mm.value_or(0.0)};
   const auto* known = find_where(holes, [&](const Hole& hole) {
     return hole.commanded.x_mm == at.x_mm && hole.commanded.y_mm == at.y_mm;
@@ -84,9 +81,7 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
   bool any_distances = false;
   for (auto begin = rows.begin(); begin != rows.end();) {
     if (!is_header(*begin)) {
-      problems.add(begin->front().place(),
-                   begin->front().text,
-                   ProblemKind::bad_table,
+      problems.add(begin->front().place(), begin->front().text, ProblemKind::bad_table,
                    "a header line first: hole,x_mm,y_mm for the holes, or "
                    "from,to,distance_mm,sigma_mm for the distances");
       break;
@@ -120,17 +115,14 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
     }
   }
   if (!problems.any() && (stated.holes.empty() || !any_distances)) {
-    problems.add("",
-                 stated.holes.empty() ? "no holes" : "no distances",
-                 ProblemKind::missing,
+    problems.add("", stated.holes.empty() ? "no holes" : "no distances", ProblemKind::missing,
                  "two tables: lines below hole,x_mm,y_mm, and lines below "
                  "from,to,distance_mm,sigma_mm; {}",
                  kLengthsBetween);
   }
   problems.throw_if_any();
   HolesPlaces places{
-      "the holes",
-      "the distances",
+      "the holes", "the distances",
       [cells = std::move(hole_cells)](std::size_t index) { return cells[index].place(); },
       [cells = std::move(distance_cells)](std::size_t index, std::string_view field) {
         const CsvRow& own = cells[index];

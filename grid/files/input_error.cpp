@@ -40,10 +40,7 @@ std::string Warning::message() const {
 InputError::InputError(std::vector<InputProblem> problems)
     : std::runtime_error(all_messages(problems)), problems_(std::move(problems)) {}
 
-void refuse(std::string file,
-            std::string place,
-            std::string found,
-            std::string expected,
+void refuse(std::string file, std::string place, std::string found, std::string expected,
             ProblemKind kind) {
   throw InputError(
       {{std::move(file), std::move(place), std::move(found), std::move(expected), {}, kind}});

@@ -56,15 +56,10 @@ class InputError : public std::runtime_error {
 };
 
 /// \throws InputError with one problem.
-[[noreturn]] void refuse(std::string file,
-                         std::string place,
-                         std::string found,
-                         std::string expected,
-                         ProblemKind kind = ProblemKind::unexpected);
+[[noreturn]] void refuse(std::string file, std::string place, std::string found,
+                         std::string expected, ProblemKind kind = ProblemKind::unexpected);
 /// As above, of the file as a whole.
-[[noreturn]] void refuse(std::string file,
-                         std::string found,
-                         std::string expected,
+[[noreturn]] void refuse(std::string file, std::string found, std::string expected,
                          ProblemKind kind = ProblemKind::unexpected);
 
 /// The system's message for an error number, in English in every locale.

@@ -29,8 +29,7 @@ inline constexpr OptionalAccess kOptionalAccess = {
 
 /// For a std::optional, or for a member at this offset of what it holds; null if it is empty.
 std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                            const OptionalAccess& access,
-                                            std::size_t offset = 0);
+                                            const OptionalAccess& access, std::size_t offset = 0);
 
 /// What a member holds, which may be a std::optional.
 template <class V>

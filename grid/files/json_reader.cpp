@@ -11,8 +11,7 @@ namespace {
 
 class OptionalCodec : public Codec {
  public:
-  OptionalCodec(std::shared_ptr<const Codec> value,
-                const OptionalAccess& access,
+  OptionalCodec(std::shared_ptr<const Codec> value, const OptionalAccess& access,
                 std::size_t offset)
       : Codec(value->expected()), value_(std::move(value)), access_(access), offset_(offset) {}
   bool read(const Cursor& at, void* member) const override {
@@ -58,8 +57,7 @@ std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*rese
 }
 
 std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                            const OptionalAccess& access,
-                                            std::size_t offset) {
+                                            const OptionalAccess& access, std::size_t offset) {
   return std::make_shared<OptionalCodec>(std::move(value), access, offset);
 }
 
@@ -82,10 +80,9 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
   if (!at.has("format_version")) {
     if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
   } else if (version.json() != format_->version) {
-    version.expect(
-        fmt::format(
-            "\"{}\", the version that this program reads: {}", format_->version, format_->anew),
-        ProblemKind::format_version);
+    version.expect(fmt::format("\"{}\", the version that this program reads: {}", format_->version,
+                               format_->anew),
+                   ProblemKind::format_version);
     return false;
   }
   return true;
@@ -182,9 +179,7 @@ std::vector<std::string> RecordTable::keys() const {
   return keys;
 }
 
-bool RecordTable::read_fields(const Cursor& at,
-                              void* object,
-                              bool is_root,
+bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root,
                               void (*reset)(void*)) const {
   if (!open(at, is_root)) return false;
   if (reset != nullptr) reset(object);

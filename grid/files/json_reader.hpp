@@ -115,9 +115,7 @@ class RecordTable {
 
   friend class ObjectCodec;
   /// Calls `reset`, unless it is null, as soon as the value is known to be an object.
-  bool read_fields(const Cursor& at,
-                   void* object,
-                   bool is_root,
+  bool read_fields(const Cursor& at, void* object, bool is_root,
                    void (*reset)(void*) = nullptr) const;
   Json write_fields(const void* object) const;
 
@@ -200,15 +198,9 @@ class Record : public RecordTable {
   }
 
   /// `write` returns a discarded value if the key is left out.
-  Record& custom(Text key,
-                 Text meaning,
-                 bool is_required,
-                 Expected expected,
-                 std::function<void(const Cursor&, T&)> read,
-                 std::function<Json(const T&)> write) {
-    return custom(key,
-                  meaning,
-                  is_required,
+  Record& custom(Text key, Text meaning, bool is_required, Expected expected,
+                 std::function<void(const Cursor&, T&)> read, std::function<Json(const T&)> write) {
+    return custom(key, meaning, is_required,
                   partial<T>(std::move(expected), std::move(read), std::move(write)));
   }
   /// The same, of a value that leaves the rest of the object as it is.
@@ -220,13 +212,10 @@ class Record : public RecordTable {
   /// A value that is not a member: `set(object, value)` stores a valid one, `get(object)` returns
   /// it, or nothing if the key is left out; or it returns what is written.
   template <class V, class Set, class Get>
-  Record& computed(
-      Text key, Text meaning, bool is_required, const Value<V>& value, Set set, Get get) {
+  Record& computed(Text key, Text meaning, bool is_required, const Value<V>& value, Set set,
+                   Get get) {
     return custom(
-        key,
-        meaning,
-        is_required,
-        value.expected,
+        key, meaning, is_required, value.expected,
         [value, set](const Cursor& at, T& object) {
           if (auto read = value.read(at); read && at.clean()) set(object, *std::move(read));
         },
@@ -248,16 +237,10 @@ class Record : public RecordTable {
 
   /// A key of the file, not of the object: read and checked, and `written` whatever the object is.
   template <class V>
-  Record& beside(Text key,
-                 Text meaning,
-                 bool is_required,
-                 const Value<V>& value,
+  Record& beside(Text key, Text meaning, bool is_required, const Value<V>& value,
                  const Json& written = kLeftOut) {
     return custom(
-        key,
-        meaning,
-        is_required,
-        value.expected,
+        key, meaning, is_required, value.expected,
         [value](const Cursor& at, T&) { (void)value.read(at); },
         [written](const T&) { return written; });
   }

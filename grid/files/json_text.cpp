@@ -157,8 +157,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  bool parse_error(std::size_t position,
-                   const std::string&,
+  bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
     // The parser counts the characters it has read: the last one did not fit, or ended a token that
     // did not.
@@ -167,9 +166,7 @@ class Builder : public nlohmann::json_sax<Json> {
         at_end ? Token{original_.size(), "the end of the text"}
                : token_at(original_,
                           source_.original_offset(position - std::min<std::size_t>(position, 1)));
-    problems_.add(line_and_column_of(original_, token.offset),
-                  token.text,
-                  ProblemKind::bad_syntax,
+    problems_.add(line_and_column_of(original_, token.offset), token.text, ProblemKind::bad_syntax,
                   expected_by_parser(error.what()) + likely_error(original_, token.offset));
     return false;
   }
@@ -216,8 +213,7 @@ class Builder : public nlohmann::json_sax<Json> {
                     value.is_object()  ? "an object"
                     : value.is_array() ? "a list"
                                        : compact_json(value),
-                    ProblemKind::repeated_key,
-                    "this key only once");
+                    ProblemKind::repeated_key, "this key only once");
     }
     auto& members = level.value->get_ref<Json::object_t&>();
     // Appends without a search for the key, which would be slow for long objects.
@@ -229,9 +225,7 @@ class Builder : public nlohmann::json_sax<Json> {
     const bool is_full = !open_.empty() && open_.back().value->is_object() &&
                          open_.back().value->size() >= kMostMembers;
     if (++values_ <= kMostValues && !is_full) return true;
-    problems_.add(pointer(),
-                  "more values",
-                  ProblemKind::too_many,
+    problems_.add(pointer(), "more values", ProblemKind::too_many,
                   is_full ? fmt::format("at most {} members", kMostMembers)
                           : fmt::format("at most {} values", kMostValues));
     return false;
@@ -246,8 +240,8 @@ class Builder : public nlohmann::json_sax<Json> {
   bool open(Json&& value) {
     if (!has_room()) return false;
     if (open_.size() == kDeepest) {
-      problems_.add(
-          pointer(), "deeper nesting", ProblemKind::too_many, "at most {} levels", kDeepest);
+      problems_.add(pointer(), "deeper nesting", ProblemKind::too_many, "at most {} levels",
+                    kDeepest);
       return false;
     }
     Level level;
@@ -332,8 +326,8 @@ bool is_a_line(const Json& value, bool in_list, std::size_t used, std::size_t le
          (in_list && value.is_object() && holds_scalars_only(value));
 }
 
-void append_pretty(
-    const Json& value, bool in_list, std::size_t indent, std::size_t used, std::string& out) {
+void append_pretty(const Json& value, bool in_list, std::size_t indent, std::size_t used,
+                   std::string& out) {
   std::string compact;
   append_compact(value, compact);
   if (is_a_line(value, in_list, used, compact.size())) {

@@ -34,8 +34,7 @@ std::string quoted_choice(const std::vector<std::string>& names) {
 }
 
 /// The word if it is one of `names`; otherwise reports the nearest one.
-std::optional<std::string> word_among(const Cursor& at,
-                                      const std::vector<std::string>& names,
+std::optional<std::string> word_among(const Cursor& at, const std::vector<std::string>& names,
                                       const std::string& expected) {
   if (!at.json().is_string()) {
     at.expect(expected);
@@ -215,16 +214,14 @@ Value<std::string> text() {
 }
 
 Value<std::uint64_t> seed_number() {
-  return typed<std::uint64_t>("a whole number of at least 0",
-                              {{"type", "integer"}, {"minimum", 0}},
+  return typed<std::uint64_t>("a whole number of at least 0", {{"type", "integer"}, {"minimum", 0}},
                               &Json::is_number_unsigned);
 }
 
 Value<std::string> one_of(const std::vector<std::string>& names) {
   const Expected expected = expected_word(names);
   return {[names, expected](const Cursor& at) { return word_among(at, names, expected.words); },
-          [](const std::string& value) { return value; },
-          expected};
+          [](const std::string& value) { return value; }, expected};
 }
 
 std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size) {
@@ -232,8 +229,7 @@ std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::si
 }
 
 std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
-                                        const ListAccess& access,
-                                        std::size_t fewest) {
+                                        const ListAccess& access, std::size_t fewest) {
   return std::make_shared<ListCodec>(std::move(element), access, fewest);
 }
 

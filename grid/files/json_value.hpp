@@ -135,8 +135,7 @@ struct Value {
   explicit Value(std::shared_ptr<const Codec> own)
       : codec(std::move(own)), expected(codec->expected()) {}
   /// `read` returns the whole value, or nothing.
-  Value(std::function<std::optional<V>(const Cursor&)> read,
-        typename FunctionCodec<V>::Write write,
+  Value(std::function<std::optional<V>(const Cursor&)> read, typename FunctionCodec<V>::Write write,
         Expected in_words)
       : Value(std::make_shared<FunctionCodec<V>>(
             std::move(in_words),
@@ -159,8 +158,7 @@ struct Value {
 
 /// A value that sets some members of an object and leaves the others as they are.
 template <class T>
-Value<T> partial(Expected expected,
-                 std::function<void(const Cursor&, T&)> read,
+Value<T> partial(Expected expected, std::function<void(const Cursor&, T&)> read,
                  typename FunctionCodec<T>::Write write) {
   return Value<T>(std::make_shared<FunctionCodec<T>>(
       std::move(expected),
@@ -180,8 +178,7 @@ Value<V> converted(const Value<From>& value, To to, Back back) {
             if (!read || !at.clean()) return std::nullopt;
             return to(*read);
           },
-          [value, back](const V& own) { return value.write(back(own)); },
-          value.expected};
+          [value, back](const V& own) { return value.write(back(own)); }, value.expected};
 }
 
 /// Largest number of points, distances and positions.
@@ -267,8 +264,7 @@ inline constexpr ListAccess kListAccess = {
       return static_cast<const std::vector<V>*>(list)->data() + index;
     }};
 std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
-                                        const ListAccess& access,
-                                        std::size_t fewest);
+                                        const ListAccess& access, std::size_t fewest);
 
 /// Schema of a list of such elements.
 Json list_schema(const Json& element, std::size_t fewest);

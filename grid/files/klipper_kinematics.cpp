@@ -227,21 +227,15 @@ def load_kinematics(toolhead, config):
 )py";
 
 /// Same table, same bytes.
-std::string klipper_source(const LengthTable& table,
-                           const StraightChains& straight,
-                           double piece_mm,
-                           const std::string& name) {
-  return with_table(kModuleHead,
-                    table,
-                    "chaintrue",
-                    name,
-                    fmt::arg("left_x", straight.anchors.left.x_mm),
-                    fmt::arg("left_y", straight.anchors.left.y_mm),
-                    fmt::arg("right_x", straight.anchors.right.x_mm),
-                    fmt::arg("right_y", straight.anchors.right.y_mm),
-                    fmt::arg("left_longer", straight.longer_mm.left_mm),
-                    fmt::arg("right_longer", straight.longer_mm.right_mm),
-                    fmt::arg("piece", piece_mm)) +
+std::string klipper_source(const LengthTable& table, const StraightChains& straight,
+                           double piece_mm, const std::string& name) {
+  return with_table(
+             kModuleHead, table, "chaintrue", name, fmt::arg("left_x", straight.anchors.left.x_mm),
+             fmt::arg("left_y", straight.anchors.left.y_mm),
+             fmt::arg("right_x", straight.anchors.right.x_mm),
+             fmt::arg("right_y", straight.anchors.right.y_mm),
+             fmt::arg("left_longer", straight.longer_mm.left_mm),
+             fmt::arg("right_longer", straight.longer_mm.right_mm), fmt::arg("piece", piece_mm)) +
          table.nodes_as_text("(", ")") + std::string(kModuleTail);
 }
 
@@ -275,13 +269,13 @@ std::optional<double> largest_bend(const LengthTable& table, const StraightChain
     for (int column = 0; column < table.columns; ++column) {
       const auto here = place(row, column);
       if (!here) return std::nullopt;
-      const auto bend =
-          [&](const std::optional<BedPoint>& a, const std::optional<BedPoint>& b, double step_mm) {
-            if (!a || !b) return 0.0;
-            return std::hypot(a->x_mm - 2.0 * here->x_mm + b->x_mm,
-                              a->y_mm - 2.0 * here->y_mm + b->y_mm) /
-                   (step_mm * step_mm);
-          };
+      const auto bend = [&](const std::optional<BedPoint>& a, const std::optional<BedPoint>& b,
+                            double step_mm) {
+        if (!a || !b) return 0.0;
+        return std::hypot(a->x_mm - 2.0 * here->x_mm + b->x_mm,
+                          a->y_mm - 2.0 * here->y_mm + b->y_mm) /
+               (step_mm * step_mm);
+      };
       if (column > 0 && column + 1 < table.columns)
         largest =
             std::max(largest, bend(place(row, column - 1), place(row, column + 1), table.step_x()));

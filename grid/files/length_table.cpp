@@ -62,8 +62,7 @@ tl::expected<double, MapFailure> largest_error(const LengthMap& map, const Lengt
         const auto lengths = map.lengths({table.x(column + right), table.y(row + up)});
         if (!lengths) return tl::unexpected(lengths.error());
         largest = std::max(
-            {largest,
-             std::abs(interpolated(table, column + right, row + up, 0) - lengths->left_mm),
+            {largest, std::abs(interpolated(table, column + right, row + up, 0) - lengths->left_mm),
              std::abs(interpolated(table, column + right, row + up, 1) - lengths->right_mm)});
       }
     }
@@ -79,13 +78,13 @@ double LengthTable::node(int row, int column, std::size_t side) const {
   const auto beyond = [](double a, double b, double c) { return 3.0 * a - 3.0 * b + c; };
   if (column < 0) return beyond(node(row, 0, side), node(row, 1, side), node(row, 2, side));
   if (column >= columns) {
-    return beyond(
-        node(row, columns - 1, side), node(row, columns - 2, side), node(row, columns - 3, side));
+    return beyond(node(row, columns - 1, side), node(row, columns - 2, side),
+                  node(row, columns - 3, side));
   }
   if (row < 0) return beyond(node(0, column, side), node(1, column, side), node(2, column, side));
   if (row >= rows) {
-    return beyond(
-        node(rows - 1, column, side), node(rows - 2, column, side), node(rows - 3, column, side));
+    return beyond(node(rows - 1, column, side), node(rows - 2, column, side),
+                  node(rows - 3, column, side));
   }
   return nodes[as_size(row) * as_size(columns) + as_size(column)][side];
 }
@@ -99,10 +98,7 @@ std::string LengthTable::nodes_as_text(std::string_view open, std::string_view c
                           column == 0       ? ""
                           : column % 4 == 0 ? ",\n     "
                                             : ", ",
-                          open,
-                          node(row, column, 0),
-                          node(row, column, 1),
-                          close);
+                          open, node(row, column, 0), node(row, column, 1), close);
     }
     text += fmt::format("{},\n", close);
   }

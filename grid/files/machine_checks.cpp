@@ -30,12 +30,8 @@ void check_bed(const model::Machine& machine, Problems& problems) {
   if (machine.motors.left.x_mm > -half || machine.motors.right.x_mm < half) {
     problems.add("the machine's motors",
                  fmt::format("motors at {:.1f} and {:.1f} mm, over a bed from {:.1f} to {:.1f} mm",
-                             machine.motors.left.x_mm,
-                             machine.motors.right.x_mm,
-                             -half,
-                             half),
-                 ProblemKind::impossible,
-                 "motors beyond both sides of the bed");
+                             machine.motors.left.x_mm, machine.motors.right.x_mm, -half, half),
+                 ProblemKind::impossible, "motors beyond both sides of the bed");
     return;
   }
   const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
@@ -43,13 +39,9 @@ void check_bed(const model::Machine& machine, Problems& problems) {
     const auto pose = kinematics->inverse(place);
     if (!pose) {
       problems.add("the machine's bed",
-                   fmt::format("its {} at ({:.1f}, {:.1f}) mm: {}",
-                               name,
-                               place.x_mm,
-                               place.y_mm,
+                   fmt::format("its {} at ({:.1f}, {:.1f}) mm: {}", name, place.x_mm, place.y_mm,
                                pose.error().sentence()),
-                   ProblemKind::impossible,
-                   "a bed below the motors that the sled can reach");
+                   ProblemKind::impossible, "a bed below the motors that the sled can reach");
       return;
     }
     const double pull_n =
@@ -58,8 +50,7 @@ void check_bed(const model::Machine& machine, Problems& problems) {
     problems.add("the machine's motors",
                  fmt::format("a pull of {:.0f} N at the {} of the bed", pull_n, name),
                  ProblemKind::impossible,
-                 "motors so high above the bed that no chain pulls more than {:.0f} N",
-                 kMostPullN);
+                 "motors so high above the bed that no chain pulls more than {:.0f} N", kMostPullN);
     return;
   }
 }
@@ -96,8 +87,7 @@ void refuse_foreign_settings(std::string_view text, Problems& problems) {
     const bool is_at_line = at == 0 || (at != std::string_view::npos && text[at - 1] == '\n');
     if (!is_at_line) continue;
     problems.explain(
-        line_and_column_of(text, at),
-        ProblemKind::file_kind,
+        line_and_column_of(text, at), ProblemKind::file_kind,
         fmt::format("these are settings of {}, which do not describe a hanging machine and are not "
                     "read. Enter the machine's dimensions instead: for a router on two chains, "
                     "chaintrue start without a file writes a machine file to fill in; for a "

@@ -32,10 +32,8 @@ auto bed_record() {
 
 auto motor_record() {
   RECORD(MotorPosition, "a motor's position")
-  FIELD(place,
-        "x of the motor's axis, from the middle of the bed to the right.",
-        "y of the motor's axis, up from the middle of the bed.",
-        kMillimetres);
+  FIELD(place, "x of the motor's axis, from the middle of the bed to the right.",
+        "y of the motor's axis, up from the middle of the bed.", kMillimetres);
 }
 
 auto motors_record() {
@@ -48,8 +46,7 @@ auto sprocket_record() {
   RECORD(model::Sprocket, "a sprocket")
   REQUIRED(teeth, "Number of teeth of a sprocket.", integer(1, 1000))
   REQUIRED(pitch_mm, "The chain's pitch, one link.", kMillimetres)
-  OPTIONAL(radius_mm,
-           "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
+  OPTIONAL(radius_mm, "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
            kMillimetres);
 }
 
@@ -67,8 +64,8 @@ auto brackets_record() {
   FIELD(constant, "kind", "The chains end at two brackets of the sled.", "brackets")
   REQUIRED(spacing_mm, "Distance between the ends of the two chains.", kMillimetres)
   REQUIRED(height_mm, "Height of the chains' ends above the bit.", kMillimetres)
-  REQUIRED(
-      cg_below_bit_mm, "Distance of the sled's centre of gravity below the bit.", kMillimetres);
+  REQUIRED(cg_below_bit_mm, "Distance of the sled's centre of gravity below the bit.",
+           kMillimetres);
 }
 
 using Attachment = decltype(Machine::attachment);
@@ -117,8 +114,7 @@ auto sled_record() {
 
 auto frame_record() {
   RECORD(model::Frame, "a frame")
-  REQUIRED(tilt_from_vertical_deg,
-           "Angle by which the frame leans back; 0: upright.",
+  REQUIRED(tilt_from_vertical_deg, "Angle by which the frame leans back; 0: upright.",
            number_in("degrees"));
 }
 
@@ -141,8 +137,8 @@ auto controller_record() {
            "The firmware, whose kinematics converts commands into chain lengths. ideal "
            "uses the machine file as it is.",
            choice(kControllerKinds))
-  OPTIONAL(
-      settings, "The firmware's settings, by GroundControl's names.", controller_settings_record());
+  OPTIONAL(settings, "The firmware's settings, by GroundControl's names.",
+           controller_settings_record());
 }
 
 /// No hanging router has a bed and motors below this in mm; in inches and centimetres all are below
@@ -167,8 +163,7 @@ void check_machine(const Cursor& at, Machine& machine) {
     at.child("uncertainty")
         .warn(fmt::format("missing; assumed: motor positions within {} mm, chain zeros within {} "
                           "mm and the ring's radius within {} mm (1 sigma)",
-                          assumed.motor_position_mm,
-                          assumed.chain_zero_mm,
+                          assumed.motor_position_mm, assumed.chain_zero_mm,
                           assumed.ring_radius_mm));
   }
   if (is_in_other_unit(machine)) {
@@ -177,12 +172,10 @@ void check_machine(const Cursor& at, Machine& machine) {
       return fmt::format("{:.6g} x {:.6g}", width, height);
     };
     at.problems().explain(
-        at.pointer(),
-        ProblemKind::other_unit,
+        at.pointer(), ProblemKind::other_unit,
         fmt::format("these look like {}: multiply all lengths by {:g}. The bed is then {} mm; it "
                     "is {} now.",
-                    unit.word,
-                    unit.mm,
+                    unit.word, unit.mm,
                     size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm),
                     size(machine.bed.width_mm, machine.bed.height_mm)));
     return;
@@ -201,9 +194,7 @@ void refuse_emptiness(const std::string& text, Problems& problems) {
   if (text.find_first_not_of(" \t\r\n{}") != std::string::npos ||
       text.find('{') == std::string::npos)
     return;
-  problems.add("",
-               "an empty machine",
-               ProblemKind::missing,
+  problems.add("", "an empty machine", ProblemKind::missing,
                "a machine; chaintrue start writes one to fill in, with every key explained");
   problems.throw_if_any();
 }
@@ -216,8 +207,7 @@ Record<ControllerSettings> controller_settings_record() {
   for (const NumberKey& own : kNumberKeys) {
     // The only setting in words has its place among them.
     if (own.setting == &ControllerSettings::sled_weight_n) {
-      settings.optional("chainoversprocket",
-                        "Side of the sprocket over which the chain leaves.",
+      settings.optional("chainoversprocket", "Side of the sprocket over which the chain leaves.",
                         &ControllerSettings::chain_over_sprocket_top,
                         choice<bool>({{"Top", true}, {"Bottom", false}}));
     }
@@ -230,8 +220,7 @@ Record<model::AppliedEffect> effect_record() {
   using model::AppliedEffect;
   RECORD(AppliedEffect, "an effect")
   REQUIRED(effect, "Its name, as chaintrue effects lists them.")
-  SPARSE(side,
-         "Where it acts; none for effects without a side.",
+  SPARSE(side, "Where it acts; none for effects without a side.",
          one_of({"left", "right", "both", "x", "y"}))
   REQUIRED(parameters, "Its size and other parameters, by name.", dictionary(number_in("")))
   OPTIONAL(probability, "Its probability, if a diagnosis added it; otherwise absent.", kShare);
@@ -258,9 +247,7 @@ const Record<Machine>& machine_record() {
            "The firmware and its settings; default: an ideal one that uses the machine file as "
            "it is.",
            controller_record())
-    NAMED(sparse,
-          "declared_effects",
-          declared,
+    NAMED(sparse, "declared_effects", declared,
           "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
           "file.",
           declared_value())

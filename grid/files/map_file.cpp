@@ -21,17 +21,15 @@ constexpr Range kSigmaFactor{"", 1.0, 1e6};
 
 auto mark_record() {
   RECORD(model::MarkPoint, "a point")
-  FIELD(place,
-        "x of the tool. Null in a list that is not filled in yet.",
-        "y of the tool, up. Null in a list that is not filled in yet.",
-        kPlaceMm);
+  FIELD(place, "x of the tool. Null in a list that is not filled in yet.",
+        "y of the tool, up. Null in a list that is not filled in yet.", kPlaceMm);
 }
 
 auto outside_record() {
   RECORD(OutsideRule, "behaviour outside the measured part")
   REQUIRED(way, "Behaviour outside the measured part.", choice(kOutsideWays))
-  OPTIONAL(
-      fade_width_mm, "For fade: distance over which the correction goes to zero.", kFadeWidthMm);
+  OPTIONAL(fade_width_mm, "For fade: distance over which the correction goes to zero.",
+           kFadeWidthMm);
 }
 
 auto map_noise_record() {
@@ -58,36 +56,26 @@ constexpr const char* kRelativeTo =
 auto accuracy_record() {
   RECORD(MapAccuracy, "the map's own error")
   FIELD(constant, "relative_to", "What the errors are relative to.", kRelativeTo)
-  REQUIRED(leave_one_out,
-           "Errors of points predicted by a map without them, one at a time.",
+  REQUIRED(leave_one_out, "Errors of points predicted by a map without them, one at a time.",
            held_out_record())
   REQUIRED(blocked, "The same with a block of the bed left out at a time.", held_out_record())
-  REQUIRED(
-      expected_tool, "Expected error of the tool over the measured part.", error_summary_record())
+  REQUIRED(expected_tool, "Expected error of the tool over the measured part.",
+           error_summary_record())
   REQUIRED(expected_worst_at, "Where it is largest.", mark_record());
 }
 
 auto map_point_record() {
   const auto pair = pair_of_numbers(kErrorMm);
   RECORD(MapPoint, "a measured point")
-  FIELD(place,
-        &MapPoint::mark,
-        "x, to the right of the bed's middle, or of the marks' origin.",
-        "y, up from the bed's middle, or from the marks' origin.",
-        kPlaceMm)
-  FIELD(required,
-        "left_mm",
-        "The left chain.",
-        path(&MapPoint::lengths, &model::ChainLengths::left_mm),
-        kPlaceMm)
-  FIELD(required,
-        "right_mm",
-        "The right chain.",
-        path(&MapPoint::lengths, &model::ChainLengths::right_mm),
-        kPlaceMm)
+  FIELD(place, &MapPoint::mark, "x, to the right of the bed's middle, or of the marks' origin.",
+        "y, up from the bed's middle, or from the marks' origin.", kPlaceMm)
+  FIELD(required, "left_mm", "The left chain.",
+        path(&MapPoint::lengths, &model::ChainLengths::left_mm), kPlaceMm)
+  FIELD(required, "right_mm", "The right chain.",
+        path(&MapPoint::lengths, &model::ChainLengths::right_mm), kPlaceMm)
   REQUIRED(bad, "True if the fit left it out.")
-  REQUIRED(
-      distance_sigmas, "Its distance from the prediction of the others, in sigmas.", kNotNegative)
+  REQUIRED(distance_sigmas, "Its distance from the prediction of the others, in sigmas.",
+           kNotNegative)
   REQUIRED(as_stated_mm, "Measured position minus that of the machine file.", pair)
   REQUIRED(sheet_placed_mm, "The same after the best placement of the sheet.", pair)
   REQUIRED(mapped_mm, "The same with the map.", pair)
@@ -97,8 +85,8 @@ auto map_point_record() {
 auto mirror_record() {
   RECORD(MirrorTest, "comparison of mirrored chains")
   REQUIRED(points, "Number of points whose mirror image was measured.")
-  REQUIRED(
-      difference, "Right chain minus left chain at the mirrored place.", error_summary_record())
+  REQUIRED(difference, "Right chain minus left chain at the mirrored place.",
+           error_summary_record())
   REQUIRED(mean_mm, "Mean difference.", kErrorMm)
   REQUIRED(worst_at, "Where the difference is largest.", mark_record())
   REQUIRED(worst_signed_mm, "The difference there.", kErrorMm)
@@ -112,8 +100,8 @@ auto distances_record() {
   REQUIRED(used, "Number of distances used.", count)
   NAMED(required, "set_aside", rejected, "Number of distances left out.", count)
   REQUIRED(tape_sigma_mm, "Noise of the tape in the fit, 1 sigma.", kNotNegative)
-  REQUIRED(
-      left_out_all, "Errors of distances predicted by a map without them.", error_summary_record())
+  REQUIRED(left_out_all, "Errors of distances predicted by a map without them.",
+           error_summary_record())
   REQUIRED(left_out_good, "The same without the rejected distances.", error_summary_record());
 }
 

@@ -51,9 +51,7 @@ using model::PerSide;
 
 auto sheet_placement_record() {
   RECORD(model::SheetPlacement, "a sheet's placement")
-  FIELD(place,
-        "x of the marks' origin on the bed.",
-        "y of the marks' origin on the bed, up.",
+  FIELD(place, "x of the marks' origin on the bed.", "y of the marks' origin on the bed, up.",
         kPlaceMm)
   REQUIRED(rotation_rad, "Rotation of the marks, counter-clockwise.", {"rad", -7.0, 7.0});
 }
@@ -63,27 +61,16 @@ auto spline_record() {
   NAMED(required, "rectangle_mm", rectangle, "Where the splines are defined.", rectangle_record())
   REQUIRED(x_intervals, "Equal intervals along x.", integer(1, 1000))
   REQUIRED(y_intervals, "Equal intervals along y.", integer(1, 1000))
-  FIELD(required,
-        "scale_left",
-        "Correction of the left chain per mm of length.",
-        path(&SplinePart::scale, &PerSide<double>::left),
-        {"", -0.1, 0.1})
-  FIELD(required,
-        "scale_right",
-        "Correction of the right chain per mm of length.",
-        path(&SplinePart::scale, &PerSide<double>::right),
-        {"", -0.1, 0.1})
-  FIELD(required,
-        "coefficients_left_mm",
+  FIELD(required, "scale_left", "Correction of the left chain per mm of length.",
+        path(&SplinePart::scale, &PerSide<double>::left), {"", -0.1, 0.1})
+  FIELD(required, "scale_right", "Correction of the right chain per mm of length.",
+        path(&SplinePart::scale, &PerSide<double>::right), {"", -0.1, 0.1})
+  FIELD(required, "coefficients_left_mm",
         "Coefficients of cubic B-splines for the left chain, y varying fastest: "
         "(x_intervals + 3) (y_intervals + 3) values.",
-        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::left),
-        vector_of_numbers())
-  FIELD(required,
-        "coefficients_right_mm",
-        "Coefficients for the right chain, in the same order.",
-        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::right),
-        vector_of_numbers())
+        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::left), vector_of_numbers())
+  FIELD(required, "coefficients_right_mm", "Coefficients for the right chain, in the same order.",
+        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::right), vector_of_numbers())
       .check([](const Cursor& at, SplinePart& part) {
         if (!at.clean()) return;
         const Eigen::Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
@@ -121,9 +108,8 @@ auto ends_record() {
 }
 
 bool rises(const Numbers& values) {
-  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
-           return !(a < b);
-         }) == values.end();
+  return std::adjacent_find(values.begin(), values.end(),
+                            [](double a, double b) { return !(a < b); }) == values.end();
 }
 
 struct NodeValues {
@@ -133,8 +119,7 @@ struct NodeValues {
 
 /// Checks that nodes increase, and that there are as many values as nodes.
 template <class Surface>
-void check_nodes(const Cursor& at,
-                 const Surface& surface,
+void check_nodes(const Cursor& at, const Surface& surface,
                  std::initializer_list<NodeValues> values) {
   if (!at.clean()) return;
   if (!rises(surface.x_nodes_mm)) at.child("x_nodes_mm").expect("increasing numbers");
@@ -153,18 +138,14 @@ template <class Surface>
 void node_keys(Record<Surface>& record, model::PerSide<Eigen::MatrixXd> Surface::*chains) {
   const auto values = matrix_of_numbers(kAnyNumber, 2);
   record
-      .required(
-          "x_nodes_mm", "Nodes along x, increasing.", &Surface::x_nodes_mm, list(kAnyNumber, 2))
-      .required(
-          "y_nodes_mm", "Nodes along y, increasing.", &Surface::y_nodes_mm, list(kAnyNumber, 2))
-      .required("left_mm",
-                "Left chain at every node: one list for each x.",
-                path(chains, &PerSide<Eigen::MatrixXd>::left),
-                values)
-      .required("right_mm",
-                "Right chain at every node.",
-                path(chains, &PerSide<Eigen::MatrixXd>::right),
-                values);
+      .required("x_nodes_mm", "Nodes along x, increasing.", &Surface::x_nodes_mm,
+                list(kAnyNumber, 2))
+      .required("y_nodes_mm", "Nodes along y, increasing.", &Surface::y_nodes_mm,
+                list(kAnyNumber, 2))
+      .required("left_mm", "Left chain at every node: one list for each x.",
+                path(chains, &PerSide<Eigen::MatrixXd>::left), values)
+      .required("right_mm", "Right chain at every node.",
+                path(chains, &PerSide<Eigen::MatrixXd>::right), values);
 }
 
 constexpr const char* kBetweenNodes = "Error of the splines between nodes, 1 sigma.";
@@ -175,8 +156,7 @@ auto lattice_record() {
   REQUIRED(doubt_mm, "Uncertainty of the value at each node.", matrix_of_numbers(kNotNegative, 2))
   REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
       .check([](const Cursor& at, LatticeResidual& own) {
-        check_nodes(at,
-                    own,
+        check_nodes(at, own,
                     {{"left_mm", &own.values_mm.left},
                      {"right_mm", &own.values_mm.right},
                      {"doubt_mm", &own.doubt_mm}});
@@ -189,18 +169,14 @@ auto model_part_record() {
   RECORD(ModelPart, "a surface on a machine")
   REQUIRED(machine, "The calibrated machine.", machine_record())
   REQUIRED(sheet, "Placement of the marks' sheet.", sheet_placement_record())
-  NAMED(required,
-        "unknown_settings",
-        settings,
-        "The settings that were calibrated, in the order of the covariance.",
-        list(setting_word()))
+  NAMED(required, "unknown_settings", settings,
+        "The settings that were calibrated, in the order of the covariance.", list(setting_word()))
   REQUIRED(residual, "Correction added to the machine's lengths.", spline_record())
   REQUIRED(covariance_factor,
            "Triangular root of the covariance of settings, scales and coefficients; lower "
            "triangle, row by row.",
            list(list(kAnyNumber, 1)))
-  OPTIONAL(lattice,
-           "For a full grid of marks: splines through the residuals at every node.",
+  OPTIONAL(lattice, "For a full grid of marks: splines through the residuals at every node.",
            lattice_record())
       .check(check_model_part);
 }
@@ -211,8 +187,8 @@ auto direct_surface_record() {
   REQUIRED(ends, "End conditions of the splines.", ends_record())
   REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
       .check([](const Cursor& at, DirectSurface& own) {
-        check_nodes(
-            at, own, {{"left_mm", &own.lengths_mm.left}, {"right_mm", &own.lengths_mm.right}});
+        check_nodes(at, own,
+                    {{"left_mm", &own.lengths_mm.left}, {"right_mm", &own.lengths_mm.right}});
       });
 }
 
@@ -221,11 +197,8 @@ ModelPart part_of(const ModelSurface& surface) {
   ModelPart part{surface.machine,
                  surface.sheet,
                  surface.settings,
-                 {basis.rectangle(),
-                  static_cast<int>(basis.columns_x()) - 3,
-                  static_cast<int>(basis.columns_y()) - 3,
-                  scale,
-                  coefficients},
+                 {basis.rectangle(), static_cast<int>(basis.columns_x()) - 3,
+                  static_cast<int>(basis.columns_y()) - 3, scale, coefficients},
                  {},
                  surface.lattice};
   for (Eigen::Index i = 0; i < surface.covariance_factor.rows(); ++i) {
@@ -240,13 +213,10 @@ ModelSurface surface_of(const ModelPart& part) {
   const SplinePart& own = part.residual;
   const interp::BsplineBasis basis(own.rectangle, own.x_intervals, own.y_intervals);
   const FitColumns columns{as_index(part.settings.size()), basis.size()};
-  ModelSurface surface{part.machine,
-                       part.sheet,
-                       {basis, own.scale, own.coefficients_mm},
-                       columns,
-                       part.settings,
-                       Eigen::MatrixXd::Zero(columns.total(), columns.total()),
-                       part.lattice};
+  ModelSurface surface{
+      part.machine, part.sheet,    {basis, own.scale, own.coefficients_mm},
+      columns,      part.settings, Eigen::MatrixXd::Zero(columns.total(), columns.total()),
+      part.lattice};
   for (std::size_t i = 0; i < part.covariance_factor.size(); ++i) {
     const Numbers& row = part.covariance_factor[i];
     surface.covariance_factor.row(as_index(i)).head(as_index(row.size())) =
@@ -266,9 +236,7 @@ const Surface* surface_in(const MapContents& map) {
 void add_surface(Record<MapContents>& record) {
   record
       .computed(
-          "on_machine",
-          "A calibrated machine with residual surfaces; or direct.",
-          false,
+          "on_machine", "A calibrated machine with residual surfaces; or direct.", false,
           object(model_part_record()),
           [](MapContents& map, const ModelPart& part) { map.surface = surface_of(part); },
           [](const MapContents& map) {
@@ -276,9 +244,7 @@ void add_surface(Record<MapContents>& record) {
             return own != nullptr ? std::optional(part_of(*own)) : std::nullopt;
           })
       .computed(
-          "direct",
-          "Splines through the lengths, without a machine; or on_machine.",
-          false,
+          "direct", "Splines through the lengths, without a machine; or on_machine.", false,
           object(direct_surface_record()),
           [](MapContents& map, const DirectSurface& surface) { map.surface = surface; },
           [](const MapContents& map) {

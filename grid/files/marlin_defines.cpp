@@ -31,12 +31,8 @@ class Defines {
       const std::string place = line_place(first);
       take(line, place);
       if (branches_.size() <= kMostConditions && defined_.size() <= kMostNames) continue;
-      problems_.add(place,
-                    "more names or conditions",
-                    ProblemKind::too_many,
-                    "at most {} names, and {} nested conditions",
-                    kMostNames,
-                    kMostConditions);
+      problems_.add(place, "more names or conditions", ProblemKind::too_many,
+                    "at most {} names, and {} nested conditions", kMostNames, kMostConditions);
       return;
     }
   }
@@ -167,11 +163,8 @@ class Defines {
   }
 
   /// The formula's value as text; reported if it is not a number.
-  void evaluate(std::string_view formula,
-                const std::string& name,
-                const std::string& key,
-                const SettingText& own,
-                SettingTexts& texts) {
+  void evaluate(std::string_view formula, const std::string& name, const std::string& key,
+                const SettingText& own, SettingTexts& texts) {
     const auto [value, cut] = value_of_formula(formula);
     if (std::isfinite(value) && !cut) {
       texts[key] = {fmt::format("{}", value), own.place};
@@ -180,14 +173,11 @@ class Defines {
     const std::string_view hint =
         looks_like_decimal_comma(formula) ? ", with a decimal point, not a comma" : "";
     problems_.add(
-        own.place,
-        own.text.empty() ? "nothing" : own.text,
-        kind_of_bad_number(formula),
+        own.place, own.text.empty() ? "nothing" : own.text, kind_of_bad_number(formula),
         std::isfinite(value)
             ? fmt::format("a whole quotient, or .0 after one of its numbers: the compiler "
                           "truncates {} ({})",
-                          *cut,
-                          name)
+                          *cut, name)
             : fmt::format("a number, or a sum of numbers and of defined names ({}){}", name, hint));
   }
 
@@ -215,8 +205,7 @@ std::string without_comments(std::string_view text) {
   return code;
 }
 
-SettingTexts marlin_texts(const std::string& text,
-                          const std::vector<std::string>& names,
+SettingTexts marlin_texts(const std::string& text, const std::vector<std::string>& names,
                           Problems& problems) {
   Defines defines(text, problems);
   SettingTexts texts;

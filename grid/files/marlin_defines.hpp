@@ -30,8 +30,7 @@
 namespace chaintrue::grid::files {
 
 /// The names that are defined. Values that are not numbers are reported with their lines.
-SettingTexts marlin_texts(const std::string& text,
-                          const std::vector<std::string>& names,
+SettingTexts marlin_texts(const std::string& text, const std::vector<std::string>& names,
                           Problems& problems);
 
 /// The lines without comments.

@@ -155,8 +155,7 @@ class CFormula {
 
 }  // namespace
 
-Truth truth_of(std::string_view condition,
-               std::function<bool(const std::string& name)> is_enabled,
+Truth truth_of(std::string_view condition, std::function<bool(const std::string& name)> is_enabled,
                std::function<bool(const std::string& name)> is_defined) {
   return Condition(condition, std::move(is_enabled), std::move(is_defined)).value();
 }

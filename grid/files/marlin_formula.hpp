@@ -56,8 +56,7 @@ inline Truth both_hold(Truth a, Truth b) {
 inline Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
 
 /// Evaluates the condition of an #if.
-Truth truth_of(std::string_view condition,
-               std::function<bool(const std::string& name)> is_enabled,
+Truth truth_of(std::string_view condition, std::function<bool(const std::string& name)> is_enabled,
                std::function<bool(const std::string& name)> is_defined);
 
 struct FormulaValue {

@@ -51,14 +51,12 @@ std::string where(const RunStopped& stopped) {
   const std::string reached =
       stopped.last_measured < 0
           ? "before the first waypoint was measured"
-          : fmt::format("after waypoint {}{}, as the machine counts from 0",
-                        stopped.last_measured,
+          : fmt::format("after waypoint {}{}, as the machine counts from 0", stopped.last_measured,
                         stopped.last_announced > stopped.last_measured
                             ? fmt::format(" of 0 to {}", stopped.last_announced)
                             : "");
   return fmt::format("This run did not finish: {} {}",
-                     stopped.said.empty() ? "the log ends" : "it stopped",
-                     reached);
+                     stopped.said.empty() ? "the log ends" : "it stopped", reached);
 }
 
 /// The evidence of the single readings and its cause; empty if there are none.
@@ -73,23 +71,19 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   if (most_mm <= 0.0) return "";
   const std::string text =
       fmt::format(" At waypoint {} the readings of the {} belt are {:.1f} mm apart",
-                  stopped.last_measured + 1,
-                  model::words(worst),
-                  most_mm);
+                  stopped.last_measured + 1, model::words(worst), most_mm);
   if (const int turns = whole_turns(most_mm, turn_mm)) {
     return fmt::format(
         "{}, {}. Probable cause: an encoder that lost turns. Check its magnet and its cable, "
         "retract that belt, extend it again and measure again.",
-        text,
-        turns_in_words(turns));
+        text, turns_in_words(turns));
   }
   if (apart > 1) {
     return fmt::format(
         "{}, and {} belts have inconsistent readings. Possible causes: a sled that still swings, a "
         "frame that yields, or too weak a pull. Brace the frame, and raise "
         "Maslow_Calibration_Current_Threshold slightly.",
-        text,
-        apart);
+        text, apart);
   }
   return fmt::format(
       "{}, the others agree. Probable cause: a slack belt, or one that catches at the arm or on "
@@ -123,9 +117,7 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
       " The {} belt reads {:.0f} mm {} than the settings predict for the commanded place, the "
       "others "
       "agree. Probable cause: {}. Retract it, extend it again and measure again.",
-      model::words(worst),
-      std::abs(excess_mm),
-      excess_mm > 0.0 ? "longer" : "shorter",
+      model::words(worst), std::abs(excess_mm), excess_mm > 0.0 ? "longer" : "shorter",
       turns > 0 ? fmt::format("{}, lost or gained,", turns_in_words(turns))
       : excess_mm > 0.0
           ? "a slack belt, or an anchor nearer than in the settings,"
@@ -186,11 +178,9 @@ std::optional<StopKind> stop_of(std::string_view line) {
 }
 
 bool is_setting_refused(std::string_view line) {
-  constexpr std::array<std::string_view, 5> kSigns = {"Invalid setting",
-                                                      "Configuration parse error",
-                                                      "Using default configuration",
-                                                      "Configuration validation error",
-                                                      "Cannot open configuration file"};
+  constexpr std::array<std::string_view, 5> kSigns = {
+      "Invalid setting", "Configuration parse error", "Using default configuration",
+      "Configuration validation error", "Cannot open configuration file"};
   return any_of(kSigns, [&](std::string_view sign) { return has(line, sign); });
 }
 

@@ -26,29 +26,21 @@ std::vector<LoggedRun> logged(const std::vector<ScannedRun>& runs) {
   return result;
 }
 
-void check_choice(const Maslow4Options& options,
-                  const std::vector<LoggedRun>& runs,
+void check_choice(const Maslow4Options& options, const std::vector<LoggedRun>& runs,
                   Problems& problems) {
   const auto& [run, points] = options.part;
   if (run && (*run < 1 || as_size(*run) > runs.size())) {
-    problems.add("--runs",
-                 fmt::format("{}", *run),
-                 ProblemKind::out_of_range,
-                 "a run of this file, 1 to {}",
-                 runs.size());
+    problems.add("--runs", fmt::format("{}", *run), ProblemKind::out_of_range,
+                 "a run of this file, 1 to {}", runs.size());
   }
   if (points && points->last > runs.back().points.last) {
-    problems.add("--runs",
-                 fmt::format("{}:{}", points->first, points->last),
-                 ProblemKind::out_of_range,
-                 "first and last of this file's points, 0:{}",
+    problems.add("--runs", fmt::format("{}:{}", points->first, points->last),
+                 ProblemKind::out_of_range, "first and last of this file's points, 0:{}",
                  runs.back().points.last);
   }
 }
 
-void choose_lengths(const Maslow4Options& options,
-                    bool is_list,
-                    model::BeltMachine& machine,
+void choose_lengths(const Maslow4Options& options, bool is_list, model::BeltMachine& machine,
                     std::vector<std::string>& assumed) {
   if (options.lengths) {
     machine.lengths = *options.lengths;
@@ -73,9 +65,7 @@ std::vector<LogPart> log_parts_of(const std::string& text, const std::string& op
     } else if (const auto run = whole_number_of(part, 1, kMost)) {
       parts.push_back({.run = run});
     } else {
-      refuse("the command line",
-             option,
-             shortened(text),
+      refuse("the command line", option, shortened(text),
              "runs, counted from 1, as in 1,2; or first and last point, counted from "
              "0, as in 0:98");
     }
@@ -88,8 +78,8 @@ namespace {
 /// No readings: describes a log, or why the run in it failed.
 void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
   if (log.refused) {
-    problems.explain(
-        line_place(log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
+    problems.explain(line_place(log.refused->line), ProblemKind::unexpected,
+                     words_of(*log.refused));
     return;
   }
   if (log.stopped) {
@@ -101,18 +91,14 @@ void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Pr
                  "a list of readings, CLBM:[...]. " + words_of(*log.stopped, none));
     return;
   }
-  problems.add("",
-               "no readings",
-               ProblemKind::missing,
+  problems.add("", "no readings", ProblemKind::missing,
                "a log of Find Anchors, or a list of readings: "
                "{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}");
 }
 
 /// The places of the range, from the runs that it covers.
-PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs,
-                        PointRange wanted,
-                        Maslow4Import& result,
-                        Problems& problems) {
+PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs, PointRange wanted,
+                        Maslow4Import& result, Problems& problems) {
   PlacesOfLog places;
   bool is_first = true;
   std::vector<std::pair<std::size_t, PointRange>> parts;
@@ -132,9 +118,7 @@ PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs,
 }
 
 /// The data of these belts as a whole.
-void check_all(MeasuredBelts& belts,
-               std::vector<std::size_t>& lines,
-               Maslow4Import& result,
+void check_all(MeasuredBelts& belts, std::vector<std::size_t>& lines, Maslow4Import& result,
                Problems& problems) {
   const BeltPlaces places{
       "the readings",
@@ -150,8 +134,7 @@ void check_all(MeasuredBelts& belts,
 
 }  // namespace
 
-Maslow4Import parse_maslow4(const std::string& text,
-                            const std::string& file,
+Maslow4Import parse_maslow4(const std::string& text, const std::string& file,
                             const Maslow4Options& options) {
   Problems problems(file);
   ScannedLog log = scan_maslow4(text, file);

@@ -85,8 +85,7 @@ struct Maslow4Import {
 
 /// `file` is the name used in messages. \throws InputError with every problem: where fewer than five
 /// readings can be read though others are there, or where they contradict each other as a whole.
-Maslow4Import parse_maslow4(const std::string& text,
-                            const std::string& file,
+Maslow4Import parse_maslow4(const std::string& text, const std::string& file,
                             const Maslow4Options& options = {});
 
 // Several runs of a Maslow 4's calibration as one session: the same machine, each run with its own

@@ -88,15 +88,14 @@ void take_anchors(Settings& settings, BeltMachine& machine, std::vector<std::str
   if (!heights_known) assumed.push_back(fmt::format("heights of the anchors of {} mm", heights));
 }
 
-BeltMachine machine_of(const Maslow4Options& options,
-                       Settings& settings,
+BeltMachine machine_of(const Maslow4Options& options, Settings& settings,
                        std::vector<std::string>& assumed) {
   BeltMachine machine;
   take_names(settings, machine);
   take_anchors(settings, machine, assumed);
   settings.take_or_assume(keys_of("armLength"), machine.arm_mm, "an arm");
-  settings.take_or_assume(
-      keys_of("beltEndExtension"), machine.end_extension_mm, "an extension of the belt's end");
+  settings.take_or_assume(keys_of("beltEndExtension"), machine.end_extension_mm,
+                          "an extension of the belt's end");
   double spoilboard_mm = 0.0;
   double work_mm = 0.0;
   (void)settings.take(keys_of("spoilboardThickness"), spoilboard_mm);

@@ -75,10 +75,8 @@ void rebuild_from_singles(ScannedRun& run, Problems& problems) {
   problems.warn(line_place(run.first_line),
                 "{} of the run's places {} taken from single readings, because no list in the "
                 "log has {}: waypoint{} {}",
-                rebuilt.size(),
-                rebuilt.size() == 1 ? "is" : "are",
-                rebuilt.size() == 1 ? "it" : "them",
-                rebuilt.size() == 1 ? "" : "s",
+                rebuilt.size(), rebuilt.size() == 1 ? "is" : "are",
+                rebuilt.size() == 1 ? "it" : "them", rebuilt.size() == 1 ? "" : "s",
                 fmt::join(rebuilt, ", "));
 }
 
@@ -89,17 +87,13 @@ struct LeftOutPlace {
 };
 
 /// Leaves these out and reports them.
-void leave_out(const std::vector<LeftOutPlace>& places,
-               std::string_view rest,
-               MeasuredBelts& belts,
-               std::vector<std::size_t>& lines,
-               Problems& problems) {
+void leave_out(const std::vector<LeftOutPlace>& places, std::string_view rest, MeasuredBelts& belts,
+               std::vector<std::size_t>& lines, Problems& problems) {
   std::vector<Warning> left_out;
   std::vector<bool> is_out(lines.size(), false);
   for (const LeftOutPlace& own : places) {
     is_out[own.index] = true;
-    left_out.push_back({problems.file(),
-                        line_place(lines[own.index]),
+    left_out.push_back({problems.file(), line_place(lines[own.index]),
                         fmt::format("this reading is left out: {}", own.why)});
   }
   warn_of(left_out, rest, problems);
@@ -112,8 +106,7 @@ void leave_out(const std::vector<LeftOutPlace>& places,
 }
 
 /// Runs with places in two frames are split.
-void part_frames(const model::BeltMachine& machine,
-                 std::vector<ScannedRun>& runs,
+void part_frames(const model::BeltMachine& machine, std::vector<ScannedRun>& runs,
                  Problems& problems) {
   std::vector<ScannedRun> parted;
   for (ScannedRun& run : runs) {
@@ -150,9 +143,7 @@ void part_frames(const model::BeltMachine& machine,
 
 }  // namespace
 
-void take_places(const ScannedRun& run,
-                 PointRange within,
-                 model::Orientation orientation,
+void take_places(const ScannedRun& run, PointRange within, model::Orientation orientation,
                  PlacesOfLog& places) {
   const bool commands_known = are_commands_known(run);
   const int first_order = places.points.empty() ? 0 : *places.points.back().order + 1;
@@ -177,9 +168,7 @@ void take_places(const ScannedRun& run,
   }
 }
 
-void report_unreadable(const ScannedRun& run,
-                       PointRange within,
-                       std::size_t readable,
+void report_unreadable(const ScannedRun& run, PointRange within, std::size_t readable,
                        Problems& problems) {
   std::vector<Warning> left_out;
   for (std::size_t i = within.first; i <= within.last; ++i) {
@@ -187,11 +176,9 @@ void report_unreadable(const ScannedRun& run,
       if (readable < kFewestBeltPoints) {
         problems.add(problem.place, problem.value, problem.kind, problem.expected);
       } else if (&problem == &run.points[i].problems.front()) {
-        left_out.push_back({problem.file,
-                            problem.place,
+        left_out.push_back({problem.file, problem.place,
                             fmt::format("this reading is left out: found {}, expected {}",
-                                        problem.value,
-                                        problem.expected)});
+                                        problem.value, problem.expected)});
       }
     }
   }
@@ -209,10 +196,9 @@ void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pro
   const std::vector<std::size_t> first = first_with_lengths_of(belts.points);
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (first[i] != i)
-      copies.push_back({i,
-                        fmt::format("it is a copy, with the same four lengths as line {} to the "
-                                    "last digit",
-                                    lines[first[i]])});
+      copies.push_back({i, fmt::format("it is a copy, with the same four lengths as line {} to the "
+                                       "last digit",
+                                       lines[first[i]])});
   }
   leave_out(copies, "further readings are copies and left out", belts, lines, problems);
 }
@@ -223,18 +209,16 @@ void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pr
   if (!frame) return;
   std::vector<LeftOutPlace> nowhere;
   for (const NowherePoint& own : points_nowhere(belts, *frame))
-    nowhere.push_back({own.point,
-                       fmt::format("its four lengths ({}) do not meet, the best place is off by "
-                                   "{:.0f} mm",
-                                   lengths_in_words(belts.points[own.point]),
-                                   own.residual_mm)});
+    nowhere.push_back(
+        {own.point, fmt::format("its four lengths ({}) do not meet, the best place is off by "
+                                "{:.0f} mm",
+                                lengths_in_words(belts.points[own.point]), own.residual_mm)});
   if (as_double(nowhere.size()) > std::ceil(kMostBadReadings * as_double(belts.points.size())))
     return;
   leave_out(nowhere, "further readings that do not meet are left out", belts, lines, problems);
 }
 
-std::vector<ScannedRun> runs_of(ScannedLog& log,
-                                const model::BeltMachine& machine,
+std::vector<ScannedRun> runs_of(ScannedLog& log, const model::BeltMachine& machine,
                                 Problems& problems) {
   std::vector<ScannedRun> runs = std::move(log.runs);
   for (ScannedRun& run : runs) rebuild_from_singles(run, problems);

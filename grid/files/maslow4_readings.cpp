@@ -84,9 +84,7 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
     const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
     if (!belt) continue;
     if (known[*belt]) {
-      problems.add(place,
-                   std::string(unquoted(part)),
-                   ProblemKind::repeated_value,
+      problems.add(place, std::string(unquoted(part)), ProblemKind::repeated_value,
                    "each belt once in a reading");
       continue;
     }
@@ -100,17 +98,12 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
   const std::string whole = fmt::format("{{{}{}", unquoted(text), end == End::lost ? "" : "}");
   for (const Belt belt : kBelts) {
     if (!known[belt]) {
-      problems.add(place,
-                   whole,
-                   ProblemKind::missing,
-                   "a length of {} too; a reading has tl, tr, bl and br",
-                   name(belt));
+      problems.add(place, whole, ProblemKind::missing,
+                   "a length of {} too; a reading has tl, tr, bl and br", name(belt));
     }
   }
   if (end == End::lost && !problems.any())
-    problems.add(place,
-                 whole,
-                 ProblemKind::missing,
+    problems.add(place, whole, ProblemKind::missing,
                  "a complete reading; the log ends in the middle of this one");
   ScannedReading reading;
   reading.line = line_;

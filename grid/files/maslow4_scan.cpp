@@ -209,10 +209,8 @@ class Scanner {
 
   void take_single_reading(std::string_view line) {
     constexpr std::array<std::pair<std::string_view, Belt>, 4> kLabels = {
-        std::pair{"Top Left ", Belt::tl},
-        std::pair{"Top Right ", Belt::tr},
-        std::pair{"Bottom Left ", Belt::bl},
-        std::pair{"Bottom Right ", Belt::br}};
+        std::pair{"Top Left ", Belt::tl}, std::pair{"Top Right ", Belt::tr},
+        std::pair{"Bottom Left ", Belt::bl}, std::pair{"Bottom Right ", Belt::br}};
     bool is_reading = false;
     for (const auto& [label, belt] : kLabels) {
       const auto value = number_after(line, label);

@@ -40,16 +40,13 @@ void give_pull(const BeltPull& pull, MeasuredBelts& belts) {
 
 void check_all_have_pulls(const std::vector<Maslow4Import>& runs, std::size_t given) {
   if (given > 0 && given != runs.size()) {
-    refuse("the command line",
-           "--pulls",
-           fmt::format("{}", given),
+    refuse("the command line", "--pulls", fmt::format("{}", given),
            fmt::format("a pull for each of the {} runs, in their order", runs.size()));
   }
   if (given > 0 || runs.size() == 1) return;
   for (const Maslow4Import& run : runs) {
     if (!run.belts.points.empty() && run.belts.points.front().pull) continue;
-    refuse(run.belts.name,
-           "no Maslow_Calibration_Current_Threshold",
+    refuse(run.belts.name, "no Maslow_Calibration_Current_Threshold",
            "how hard belts were pulled in each run: --pulls 1300mA,1900mA (that setting), or "
            "--pulls 1,1.6 if only the ratio is known; --pulls 1,1 if nothing was changed");
   }
@@ -60,8 +57,7 @@ void check_frame(const MeasuredBelts& session, const std::string& name) {
   if (session.points.size() > kMostBeltPoints) return;
   const auto second = second_frame_begins(session);
   if (!second) return;
-  refuse(name,
-         "readings of anchors other than the previous run's",
+  refuse(name, "readings of anchors other than the previous run's",
          "runs of one frame: moved anchors need a new session");
 }
 
@@ -75,9 +71,7 @@ std::vector<BeltPull> pulls_of(const std::string& text, const std::string& optio
       pulls.push_back(*pull);
       continue;
     }
-    refuse("the command line",
-           option,
-           shortened(text),
+    refuse("the command line", option, shortened(text),
            "how hard belts were pulled, one number for each run: a ratio 1,1.6, motor currents "
            "1300mA,1900mA, or forces 150N,240N");
   }

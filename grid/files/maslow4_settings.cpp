@@ -26,24 +26,16 @@ bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
          std::abs(machine.scale_y - scale_of(scale)) < detectable;
 }
 
-void add_line(Maslow4Settings& settings,
-              const BeltMachine& machine,
-              model::Belt belt,
-              char axis,
+void add_line(Maslow4Settings& settings, const BeltMachine& machine, model::Belt belt, char axis,
               double value) {
   const bool is_top_level = machine.setting_names == model::SettingNames::top_level;
-  fmt::format_to(std::back_inserter(settings.text),
-                 "$/{}{}{}={:.2f}\n",
-                 is_top_level ? "Maslow_" : "kinematics/MaslowKinematics/",
-                 name(belt),
-                 axis,
+  fmt::format_to(std::back_inserter(settings.text), "$/{}{}{}={:.2f}\n",
+                 is_top_level ? "Maslow_" : "kinematics/MaslowKinematics/", name(belt), axis,
                  value);
 }
 
-void add_scale(const BeltMachine& machine,
-               const std::optional<BeltScale>& found,
-               std::string_view why_unknown,
-               Maslow4Settings& settings) {
+void add_scale(const BeltMachine& machine, const std::optional<BeltScale>& found,
+               std::string_view why_unknown, Maslow4Settings& settings) {
   if (!found) {
     settings.remarks.push_back(
         fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: {}, "
@@ -56,8 +48,7 @@ void add_scale(const BeltMachine& machine,
     settings.remarks.push_back(
         fmt::format("Maslow_Scale_X and Maslow_Scale_Y are unchanged: the taped distances give "
                     "{:.5f} +- {:.5f}, which is already in force.",
-                    scale,
-                    found->sigma));
+                    scale, found->sigma));
     return;
   }
   for (const char axis : {'X', 'Y'}) {
@@ -78,15 +69,12 @@ Maslow4Settings anchors_of(const BeltMachine& machine) {
 void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& settings) {
   const auto belt = model::belt_of(name(cause.cause.side));
   if (cause.cause.effect->id == "anchor_height" && belt && !cause.parameters.empty()) {
-    add_line(settings,
-             machine,
-             *belt,
-             'Z',
+    add_line(settings, machine, *belt, 'Z',
              machine.anchors[*belt].z_mm + cause.parameters.front().value);
     return;
   }
-  settings.remarks.push_back(fmt::format(
-      "No setting corrects this: {}. {}.", cause.cause.effect->cause, cause.cause.effect->remedy));
+  settings.remarks.push_back(fmt::format("No setting corrects this: {}. {}.",
+                                         cause.cause.effect->cause, cause.cause.effect->remedy));
 }
 
 }  // namespace
@@ -115,8 +103,8 @@ Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found) {
         "Several causes are possible; the anchors are for the most probable one. First find out "
         "which one acts; the diagnosis proposes measurements.");
   }
-  add_scale(
-      machine, found.belts->scale, "no distance was taped, or none fits the causes", settings);
+  add_scale(machine, found.belts->scale, "no distance was taped, or none fits the causes",
+            settings);
   return settings;
 }
 

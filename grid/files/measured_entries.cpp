@@ -18,10 +18,8 @@ PlaceOf place_in_json(std::string list) {
   };
 }
 
-void fetch_machine(std::optional<model::Machine>& machine,
-                   const std::string& machine_file,
-                   const MeasuredOptions& options,
-                   Problems& problems) {
+void fetch_machine(std::optional<model::Machine>& machine, const std::string& machine_file,
+                   const MeasuredOptions& options, Problems& problems) {
   if (options.machine) {
     machine = options.machine;
   } else if (!machine_file.empty() && !machine) {
@@ -39,8 +37,7 @@ void fetch_machine(std::optional<model::Machine>& machine,
 }
 
 std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                   const EntryWords& words,
-                                   const std::string& place,
+                                   const EntryWords& words, const std::string& place,
                                    Problems& problems) {
   std::vector<std::size_t> kept;
   std::vector<std::string> blank;
@@ -53,31 +50,23 @@ std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
   }
   if (blank.empty()) return kept;
   if (kept.empty()) {
-    problems.add(place,
-                 fmt::format("{} {}, all left blank", blank.size(), words.entries),
-                 ProblemKind::left_blank,
-                 std::string(words.to_write));
+    problems.add(place, fmt::format("{} {}, all left blank", blank.size(), words.entries),
+                 ProblemKind::left_blank, std::string(words.to_write));
     problems.throw_if_any();
   }
-  problems.warn(place,
-                "{} of {} {} are left blank and left out: {}",
-                blank.size(),
-                blank_names.size(),
-                words.entries,
-                joined(blank));
+  problems.warn(place, "{} of {} {} are left blank and left out: {}", blank.size(),
+                blank_names.size(), words.entries, joined(blank));
   return kept;
 }
 
-std::string how_many(const std::vector<std::string>& named,
-                     std::size_t count,
+std::string how_many(const std::vector<std::string>& named, std::size_t count,
                      std::string_view entries) {
   return named.size() == count
              ? fmt::format("all {} {}", count, entries)
              : fmt::format("{} of {} {} ({})", named.size(), count, entries, joined(named));
 }
 
-void check_orders(const std::vector<StatedOrder>& orders,
-                  const PlaceOf& place_of,
+void check_orders(const std::vector<StatedOrder>& orders, const PlaceOf& place_of,
                   Problems& problems) {
   const auto with_order = std::count_if(
       orders.begin(), orders.end(), [](const StatedOrder& one) { return one.order.has_value(); });
@@ -87,20 +76,16 @@ void check_orders(const std::vector<StatedOrder>& orders,
     if (orders[i].is_spoilt) continue;
     if (!orders[i].order) {
       problems.add(
-          place_of(i, "order"),
-          "",
-          ProblemKind::missing,
+          place_of(i, "order"), "", ProblemKind::missing,
           "the number of the visit, as for {} other points; either all points have it or none",
           with_order);
       continue;
     }
     const auto [other, is_new] = first_with.emplace(*orders[i].order, i);
     if (!is_new) {
-      problems.add(place_of(i, "order"),
-                   fmt::format("{}", *orders[i].order),
-                   ProblemKind::repeated_value,
-                   "a different number for each visit; {} has the same",
-                   place_of(other->second, ""));
+      problems.add(
+          place_of(i, "order"), fmt::format("{}", *orders[i].order), ProblemKind::repeated_value,
+          "a different number for each visit; {} has the same", place_of(other->second, ""));
     }
   }
 }

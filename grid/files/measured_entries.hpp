@@ -26,10 +26,8 @@ PlaceOf place_in_json(std::string list);
 
 /// Fills in the machine: that of the options instead of any that the file states; otherwise its own, that of
 /// the file that it names, or the options' other one. Problems and warnings of that file are added.
-void fetch_machine(std::optional<model::Machine>& machine,
-                   const std::string& machine_file,
-                   const MeasuredOptions& options,
-                   Problems& problems);
+void fetch_machine(std::optional<model::Machine>& machine, const std::string& machine_file,
+                   const MeasuredOptions& options, Problems& problems);
 
 /// The other entries are dropped.
 template <class T>
@@ -57,13 +55,11 @@ struct EntryWords {
 /// Reports entries that were left blank, by their names (empty: not blank), and returns the others.
 /// \throws InputError if every one is blank.
 std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                   const EntryWords& words,
-                                   const std::string& place,
+                                   const EntryWords& words, const std::string& place,
                                    Problems& problems);
 
 /// "all 28 points", "3 of 28 points (4, 7, 9)".
-std::string how_many(const std::vector<std::string>& named,
-                     std::size_t count,
+std::string how_many(const std::vector<std::string>& named, std::size_t count,
                      std::string_view entries);
 
 /// The number of an entry's visit; that of an entry with a wrong value is ignored.
@@ -72,8 +68,7 @@ struct StatedOrder {
   bool is_spoilt = false;
 };
 /// Either all entries have numbers that differ, or none has one.
-void check_orders(const std::vector<StatedOrder>& orders,
-                  const PlaceOf& place_of,
+void check_orders(const std::vector<StatedOrder>& orders, const PlaceOf& place_of,
                   Problems& problems);
 
 }  // namespace chaintrue::grid::files

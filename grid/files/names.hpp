@@ -30,13 +30,11 @@ inline constexpr Named<model::ControllerKind> kControllerKinds[] = {
     {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter}};
 inline constexpr Named<model::Feed> kFeeds[] = {{"over_top", model::Feed::over_top},
                                                 {"off_bottom", model::Feed::off_bottom}};
-inline constexpr Named<model::Model> kModels[] = {{"straight", model::Model::straight},
-                                                  {"wrap", model::Model::wrap},
-                                                  {"firmware", model::Model::firmware},
-                                                  {"one_shot", model::Model::one_shot},
-                                                  {"inextensible", model::Model::inextensible},
-                                                  {"elastic", model::Model::elastic},
-                                                  {"elastic_3d", model::Model::elastic_3d}};
+inline constexpr Named<model::Model> kModels[] = {
+    {"straight", model::Model::straight},         {"wrap", model::Model::wrap},
+    {"firmware", model::Model::firmware},         {"one_shot", model::Model::one_shot},
+    {"inextensible", model::Model::inextensible}, {"elastic", model::Model::elastic},
+    {"elastic_3d", model::Model::elastic_3d}};
 inline constexpr Named<interp::EndCondition> kEndConditions[] = {
     {"not_a_knot", interp::EndCondition::not_a_knot},
     {"natural", interp::EndCondition::natural},

@@ -77,9 +77,7 @@ std::vector<std::string> parts_at_commas(std::string_view text) {
   return parts;
 }
 
-std::optional<std::array<int, 2>> pair_of(std::string_view text,
-                                          char between,
-                                          int least,
+std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least,
                                           int most) {
   std::array<int, 2> pair{};
   const char* const end = text.data() + text.size();
@@ -113,10 +111,8 @@ ProblemKind kind_of_bad_number(std::string_view text) {
   return number_of(text) ? ProblemKind::out_of_range : ProblemKind::not_a_number;
 }
 
-std::optional<double> checked_number(std::string_view text,
-                                     const std::string& place,
-                                     std::string_view name,
-                                     const Range& range,
+std::optional<double> checked_number(std::string_view text, const std::string& place,
+                                     std::string_view name, const Range& range,
                                      Problems& problems) {
   auto value = number_of(text);
   if (!value && range.unit == "mm") value = length_with_unit_mm(text);

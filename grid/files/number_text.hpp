@@ -47,11 +47,8 @@ bool looks_like_decimal_comma(std::string_view text);
 
 /// The number in its range; otherwise reports it at `place` and returns nothing. `name` is the name
 /// of the value in the message.
-std::optional<double> checked_number(std::string_view text,
-                                     const std::string& place,
-                                     std::string_view name,
-                                     const Range& range,
-                                     Problems& problems);
+std::optional<double> checked_number(std::string_view text, const std::string& place,
+                                     std::string_view name, const Range& range, Problems& problems);
 
 // Lengths as people write them into a table or behind an option: with a unit, or as the fraction
 // that an inch rule shows. Private to grid/files.

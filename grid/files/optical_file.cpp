@@ -34,24 +34,19 @@ void check_shape(const std::vector<CsvRow>& rows, Problems& problems) {
   const std::string expected = fmt::format(
       "two blocks of {} lines with {} numbers, an empty line between them", kRows, kColumns);
   if (rows.size() != kLines) {
-    problems.add(
-        "", fmt::format("{} lines of numbers", rows.size()), ProblemKind::bad_table, expected);
-  } else if (rows[kRows].front().line == rows[kRows - 1].front().line + 1) {
-    problems.add(line_and_column(rows[kRows].front().line, 1),
-                 "no empty line before it",
-                 ProblemKind::bad_table,
+    problems.add("", fmt::format("{} lines of numbers", rows.size()), ProblemKind::bad_table,
                  expected);
+  } else if (rows[kRows].front().line == rows[kRows - 1].front().line + 1) {
+    problems.add(line_and_column(rows[kRows].front().line, 1), "no empty line before it",
+                 ProblemKind::bad_table, expected);
   }
 }
 
 void check_width(const CsvRow& row, char separator, Problems& problems) {
   if (row.size() == kColumns) return;
   const bool doubled = separator == ',' && row.size() >= 2 * kColumns - 1;
-  problems.add(line_and_column(row.front().line, 1),
-               fmt::format("{} numbers", row.size()),
-               ProblemKind::bad_table,
-               "{} numbers{}",
-               kColumns,
+  problems.add(line_and_column(row.front().line, 1), fmt::format("{} numbers", row.size()),
+               ProblemKind::bad_table, "{} numbers{}", kColumns,
                doubled ? " with decimal points; these look like decimal commas" : "");
 }
 
@@ -60,8 +55,8 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
   const char separator = separator_of(text);
   std::vector<CsvRow> rows = split_csv(text, separator, problems);
   if (rows.empty())
-    problems.add(
-        "", "an empty file", ProblemKind::empty_file, "the scan written by an optical calibration");
+    problems.add("", "an empty file", ProblemKind::empty_file,
+                 "the scan written by an optical calibration");
   problems.throw_if_any();
   check_shape(rows, problems);
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -102,15 +97,11 @@ void number_visits(std::vector<StatedPoint>& points) {
 
 void check_options(const OpticalOptions& options, Problems& problems) {
   if (!kOpticalPitchMm.holds(options.pitch_mm)) {
-    problems.add("--pitch-mm",
-                 fmt::format("{}", options.pitch_mm),
-                 ProblemKind::out_of_range,
+    problems.add("--pitch-mm", fmt::format("{}", options.pitch_mm), ProblemKind::out_of_range,
                  kOpticalPitchMm.expected());
   }
   if (options.machine.controller.kind == model::ControllerKind::ideal) {
-    problems.add("the machine's /controller",
-                 "",
-                 ProblemKind::missing,
+    problems.add("the machine's /controller", "", ProblemKind::missing,
                  "the controller that executed the commands (\"kind\": \"maslow_classic\", "
                  "\"holey\" or \"fluidnc_wallplotter\") and its settings");
   }
@@ -118,8 +109,7 @@ void check_options(const OpticalOptions& options, Problems& problems) {
 
 }  // namespace
 
-ReadOptical parse_optical(const std::string& text,
-                          const std::string& file,
+ReadOptical parse_optical(const std::string& text, const std::string& file,
                           const OpticalOptions& options) {
   Problems problems(file);
   check_options(options, problems);

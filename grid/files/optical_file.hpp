@@ -38,8 +38,7 @@ struct ReadOptical {
 
 /// `file` is the name used in messages and, without its folder, the grid's. \throws InputError with
 /// every problem of the file, or if the machine has no controller.
-ReadOptical parse_optical(const std::string& text,
-                          const std::string& file,
+ReadOptical parse_optical(const std::string& text, const std::string& file,
                           const OpticalOptions& options);
 
 }  // namespace chaintrue::grid::files

@@ -20,9 +20,7 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// As std::from_chars: no locale, no plus sign, no blanks in front; `fixed` stops before an
 /// exponent. Correctly rounded.
-ParsedDouble parse_double(const char* first,
-                          const char* last,
-                          double& value,
+ParsedDouble parse_double(const char* first, const char* last, double& value,
                           NumberForm form = NumberForm::general);
 
 }  // namespace chaintrue::grid::files

@@ -82,10 +82,8 @@ fs::path end_of_links(const fs::path& path) {
   for (int links = 0; fs::is_symlink(target, error); ++links) {
     const fs::path next = fs::read_symlink(target, error);
     if (error || links == kMostLinks) {
-      files::refuse(path.string(),
-                    system_words(error ? error.value() : ELOOP),
-                    "a link that leads to a file",
-                    ProblemKind::output_place);
+      files::refuse(path.string(), system_words(error ? error.value() : ELOOP),
+                    "a link that leads to a file", ProblemKind::output_place);
     }
     target = next.is_absolute() ? next : target.parent_path() / next;
   }
@@ -106,8 +104,8 @@ fs::path file_behind(const fs::path& path) {
   if (::stat(target.c_str(), &status) != 0) {
     // An invalid name would be detected only at the rename, after other files were renamed.
     if (errno != ENOENT)
-      files::refuse(
-          path.string(), system_words(errno), "the name of a file", ProblemKind::output_place);
+      files::refuse(path.string(), system_words(errno), "the name of a file",
+                    ProblemKind::output_place);
     return target;
   }
   if (!S_ISREG(status.st_mode)) return {};
@@ -116,10 +114,8 @@ fs::path file_behind(const fs::path& path) {
   constexpr mode_t kAnybodyWrites = S_IWUSR | S_IWGRP | S_IWOTH;
   const bool is_protected = (status.st_mode & kAnybodyWrites) == 0;
   if (is_protected || ::access(target.c_str(), W_OK) != 0) {
-    files::refuse(path.string(),
-                  is_protected ? "a protected file" : system_words(errno),
-                  "a file that may be overwritten",
-                  ProblemKind::output_place);
+    files::refuse(path.string(), is_protected ? "a protected file" : system_words(errno),
+                  "a file that may be overwritten", ProblemKind::output_place);
   }
   return target;
 }
@@ -195,10 +191,8 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_b
   const int error_number = errno;
   temporary_.clear();
   free_slot(slot_);
-  files::refuse(path_.string(),
-                system_words(error_number),
-                "a directory that exists and can be written to",
-                ProblemKind::output_place);
+  files::refuse(path_.string(), system_words(error_number),
+                "a directory that exists and can be written to", ProblemKind::output_place);
 }
 
 PendingFile::~PendingFile() { discard(); }
@@ -212,10 +206,8 @@ void PendingFile::discard() {
 
 void PendingFile::refuse(int error_number) {
   discard();
-  files::refuse(path_.string(),
-                system_words(error_number),
-                "free space and permission to write the file",
-                ProblemKind::output_place);
+  files::refuse(path_.string(), system_words(error_number),
+                "free space and permission to write the file", ProblemKind::output_place);
 }
 
 void PendingFile::write(std::string_view bytes) {
@@ -270,10 +262,8 @@ void PendingFile::put_out() const {
   if (!open_already && descriptor >= 0) ::close(descriptor);
   if (is_written) return;
   if (error_number == EPIPE) throw ReaderGone();
-  files::refuse(path_ == "-" ? "standard output" : path_.string(),
-                system_words(error_number),
-                "something that can be written to",
-                ProblemKind::output_place);
+  files::refuse(path_ == "-" ? "standard output" : path_.string(), system_words(error_number),
+                "something that can be written to", ProblemKind::output_place);
 }
 
 void take_places(const std::vector<PendingFile*>& files) {

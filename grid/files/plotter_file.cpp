@@ -22,8 +22,7 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   if (!at.clean()) return;
   if (found.correlations.size() != kPairs) {
     at.child("correlations")
-        .report(fmt::format("{} numbers", found.correlations.size()),
-                ProblemKind::wrong_count,
+        .report(fmt::format("{} numbers", found.correlations.size()), ProblemKind::wrong_count,
                 "15, of each of the six settings with those after it");
     return;
   }
@@ -38,8 +37,7 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   }
   if (linear::SymmetricEigen(of_ones).eigenvalues().minCoeff() >= -kRounding) return;
   at.child("correlations")
-      .report("correlations that six quantities can have",
-              ProblemKind::impossible,
+      .report("correlations that six quantities can have", ProblemKind::impossible,
               "the ones that chaintrue fit wrote");
 }
 
@@ -50,10 +48,9 @@ auto found_plotter_record() {
   REQUIRED(pin_rise_mm, "Height of the right pin above the left.", setting)
   REQUIRED(zero_left_mm, "Excess of the controller's length of the left cord.", setting)
   REQUIRED(zero_right_mm, "Excess of the controller's length of the right cord.", setting)
-  REQUIRED(
-      scale_left_mm_per_m, "Excess of the controller's length per metre of the left cord.", setting)
-  REQUIRED(scale_right_mm_per_m,
-           "Excess of the controller's length per metre of the right cord.",
+  REQUIRED(scale_left_mm_per_m, "Excess of the controller's length per metre of the left cord.",
+           setting)
+  REQUIRED(scale_right_mm_per_m, "Excess of the controller's length per metre of the right cord.",
            setting)
   REQUIRED(correlations,
            "Correlations of each of these six, in this order, with those after it: 15 "
@@ -68,16 +65,15 @@ void check_found(const Cursor& at, KnownPlotter& plotter) {
   const auto problems = model::problems_of(machine_found(plotter.set, *plotter.found));
   if (problems.empty()) return;
   at.child("found").report(problems.front().parameter.substr(1) + " " + problems.front().value,
-                           ProblemKind::impossible,
-                           problems.front().expected);
+                           ProblemKind::impossible, problems.front().expected);
 }
 
 const Record<KnownPlotter>& plotter_record() {
   static const auto record = [] {
     RECORD(KnownPlotter, "a V-plotter", kPlotterFormat)
     REQUIRED(set, "The plotter with its controller's settings.", set_plotter_record())
-    OPTIONAL(
-        found, "Results of a test drawing; absent before one was measured.", found_plotter_record())
+    OPTIONAL(found, "Results of a test drawing; absent before one was measured.",
+             found_plotter_record())
     ALSO(add_made_by_key).check(check_found);
   }();
   return record;
@@ -89,8 +85,7 @@ KnownPlotter parse_plotter(const std::string& text, const std::string& file) {
   return read_document(plotter_record(), text, file);
 }
 
-std::string write_plotter(const KnownPlotter& plotter,
-                          const std::vector<std::string>& comments,
+std::string write_plotter(const KnownPlotter& plotter, const std::vector<std::string>& comments,
                           const std::optional<Provenance>& made_by) {
   Json json = with_made_by(plotter_record().write(plotter), made_by);
   if (!comments.empty()) json["comment"] = comments;

@@ -81,10 +81,7 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
     problems.warn("",
                   "the settings lack some of X_MIN_POS, X_MAX_POS, Y_MIN_POS and Y_MAX_POS. "
                   "Assumed: a bed centred on the middle, {:g} to {:g} and {:g} to {:g}",
-                  area.left,
-                  area.right,
-                  area.bottom,
-                  area.top);
+                  area.left, area.right, area.bottom, area.top);
   }
   problems.warn("",
                 "only these names are read from Configuration.h; the others do not "
@@ -108,13 +105,11 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
     return std::min(bed_mm, reach(own)) >= least;
   });
   if (side == std::end(kSides)) {
-    problems.add("the page",
-                 fmt::format("a bed of {:g} mm, a belt of {:g} mm", bed_mm, belt_mm),
+    problems.add("the page", fmt::format("a bed of {:g} mm, a belt of {:g} mm", bed_mm, belt_mm),
                  ProblemKind::out_of_range,
                  "for {:g} mm between the motors, a bed of at least {:.0f} mm and a "
                  "belt of at least {:.0f} mm, which a page needs",
-                 machine.pin_spacing_mm,
-                 std::ceil(least),
+                 machine.pin_spacing_mm, std::ceil(least),
                  std::ceil(std::hypot((1.0 + kSides[5]) * half, least)));
     return;
   }
@@ -125,10 +120,7 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
       "",
       "the longest belt, {:g} mm, does not reach the whole bed: the page is {:.0f} mm wide and "
       "ends {:g} mm below the motors; a belt of {:.0f} mm would reach all of it",
-      belt_mm,
-      2.0 * *side * half,
-      bottom,
-      std::ceil(std::hypot((1.0 + kSides[0]) * half, bed_mm)));
+      belt_mm, 2.0 * *side * half, bottom, std::ceil(std::hypot((1.0 + kSides[0]) * half, bed_mm)));
 }
 
 /// The pen's place when the controller is switched on: as stated, else with both belts fully paid
@@ -136,11 +128,8 @@ void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, P
 void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Problems& problems) {
   const double half = 0.5 * set.machine.pin_spacing_mm;
   if (belt <= half) {
-    problems.add("the longest belt",
-                 fmt::format("{}", belt),
-                 ProblemKind::impossible,
-                 "more than half of the {} mm between the motors",
-                 2.0 * half);
+    problems.add("the longest belt", fmt::format("{}", belt), ProblemKind::impossible,
+                 "more than half of the {} mm between the motors", 2.0 * half);
     return;
   }
   set.home = model::BedPoint{area.home_x.value_or(set.pins_middle.x_mm) - set.pins_middle.x_mm,
@@ -151,9 +140,7 @@ void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Pro
   problems.add(
       "the home",
       fmt::format("({:.1f}, {:.1f}) mm from the middle between the motors, with {:.1f} mm of belt",
-                  set.home->x_mm,
-                  set.home->y_mm,
-                  longest),
+                  set.home->x_mm, set.home->y_mm, longest),
       ProblemKind::out_of_range,
       "a home below the motors within reach of a belt of {:g} mm (MANUAL_X_HOME_POS, "
       "MANUAL_Y_HOME_POS)",

@@ -21,8 +21,8 @@ auto gondola_record() {
            kMillimetres)
   OPTIONAL(pen_right_mm, "Distance of the pen to the right of that middle.", kMillimetres)
   OPTIONAL(mass_below_mm, "Distance of the centre of mass below that middle.", kMillimetres)
-  OPTIONAL(
-      mass_right_mm, "Distance of the centre of mass to the right of that middle.", kMillimetres)
+  OPTIONAL(mass_right_mm, "Distance of the centre of mass to the right of that middle.",
+           kMillimetres)
   REQUIRED(mass_kg, "Mass of everything that hangs.", number_in("kg"))
   OPTIONAL(standoff_mm,
            "Extra distance from the wall of the cords' ends at the gondola, relative to "
@@ -55,23 +55,17 @@ auto cord_zero_record() {
 
 auto cord_scale_record() {
   RECORD(ChainLengths, "the scales of the cords")
-  NAMED(optional,
-        "left_mm_per_m",
-        left_mm,
-        "Excess of the controller's length per metre of the left cord.",
-        number_in("mm/m"))
-  NAMED(optional,
-        "right_mm_per_m",
-        right_mm,
-        "Excess of the controller's length per metre of the right cord.",
-        number_in("mm/m"));
+  NAMED(optional, "left_mm_per_m", left_mm,
+        "Excess of the controller's length per metre of the left cord.", number_in("mm/m"))
+  NAMED(optional, "right_mm_per_m", right_mm,
+        "Excess of the controller's length per metre of the right cord.", number_in("mm/m"));
 }
 
 auto uncertainty_of_plotter_record() {
   RECORD(model::PlotterUncertainty, "the uncertainties of a V-plotter")
   OPTIONAL(pin_spacing_mm, "Uncertainty of the distance between the pins, 1 sigma.", kMillimetres)
-  OPTIONAL(
-      pin_rise_mm, "Uncertainty of the right pin's height above the left, 1 sigma.", kMillimetres)
+  OPTIONAL(pin_rise_mm, "Uncertainty of the right pin's height above the left, 1 sigma.",
+           kMillimetres)
   OPTIONAL(zero_mm, "Uncertainty of each cord's zero, 1 sigma.", kMillimetres)
   OPTIONAL(scale_mm_per_m, "Uncertainty of the length per motor turn, 1 sigma.", number_in("mm/m"));
 }
@@ -91,17 +85,14 @@ auto plotter_machine_record() {
            "or axles of the pulleys.",
            kMillimetres)
   OPTIONAL(pin_rise_mm, "Height of the right point above the left.", kMillimetres)
-  REQUIRED(motors,
-           "Location of the motors with the pulleys or spools that count.",
+  REQUIRED(motors, "Location of the motors with the pulleys or spools that count.",
            by_name_to(model::MotorPlace::gondola))
   OPTIONAL(feed, "Side of its pulley over which a cord leaves.", choice(kFeeds))
-  OPTIONAL(
-      pulley_radius_mm, "Radius of the cord on its pulley; 0: straight to the pin.", kMillimetres)
+  OPTIONAL(pulley_radius_mm, "Radius of the cord on its pulley; 0: straight to the pin.",
+           kMillimetres)
   REQUIRED(gondola, "What hangs on the cords.", gondola_record())
   OPTIONAL(cord, "The cords, or belts.", cord_record())
-  NAMED(optional,
-        "zero",
-        zero_mm,
+  NAMED(optional, "zero", zero_mm,
         "Known excess of the controller's length of each cord, which is corrected.",
         cord_zero_record())
   NAMED(optional, "scale", scale_mm_per_m, "The same per metre.", cord_scale_record())
@@ -134,8 +125,7 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
     at.child("machine")
         .child("gondola")
         .child("spacing_mm")
-        .report("0",
-                ProblemKind::out_of_range,
+        .report("0", ProblemKind::out_of_range,
                 "for a mural, the distance between its two pulleys, 85 as built");
   }
   if (!is_mural && !set.home) {
@@ -160,8 +150,7 @@ Record<SetPlotter> set_plotter_record() {
            "Position that the controller assumes when it is switched on, from the middle "
            "between the pins. For all but a mural.",
            wall_point_record())
-  OPTIONAL(pins_middle,
-           "The middle between the pins in the controller's own coordinates.",
+  OPTIONAL(pins_middle, "The middle between the pins in the controller's own coordinates.",
            wall_point_record())
   OPTIONAL(homed_offset_mm, "Homed step offset of a mural.", {"mm", -1000.0, 1000.0})
   OPTIONAL(pen, "Commands that lift and lower the pen.", pen_record())

@@ -52,9 +52,7 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
       "",
       "the settings do not contain the paper's position. Assumed: a drawing area of {:.0f} x "
       "{:.0f} mm, its top {:.0f} mm below the pins. Enter yours in /set/machine/area",
-      0.6 * w,
-      -0.25 * w - bottom,
-      0.25 * w);
+      0.6 * w, -0.25 * w - bottom, 0.25 * w);
 }
 
 SetPlotter of_fluidnc(const std::string& text, Problems& problems) {
@@ -98,9 +96,7 @@ SettingTexts boot_log_texts(const std::string& text) {
 }
 
 /// From the left motor, right and down.
-model::BedPoint polargraph_home(SettingReader& settings,
-                                double width,
-                                bool is_boot_log,
+model::BedPoint polargraph_home(SettingReader& settings, double width, bool is_boot_log,
                                 Problems& problems) {
   // PenPlotter's own: half of the width, and how far down.
   if (const auto down = settings.find("machine.homepoint.y", kCoordinateMm)) {
@@ -120,26 +116,18 @@ model::BedPoint polargraph_home(SettingReader& settings,
 }
 
 /// The page and the home are on the machine.
-void check_within(double width,
-                  std::optional<double> height,
-                  model::BedPoint home,
-                  const model::DrawingArea& page,
-                  Problems& problems) {
+void check_within(double width, std::optional<double> height, model::BedPoint home,
+                  const model::DrawingArea& page, Problems& problems) {
   if (problems.any()) return;
   if (home.x_mm <= 0.0 || home.x_mm >= width || home.y_mm <= 0.0 ||
       home.y_mm > height.value_or(home.y_mm)) {
-    problems.add("the home",
-                 fmt::format("({:g}, {:g}) mm", home.x_mm, home.y_mm),
-                 ProblemKind::out_of_range,
-                 "a place on the machine, {:g} mm wide{}",
-                 width,
+    problems.add("the home", fmt::format("({:g}, {:g}) mm", home.x_mm, home.y_mm),
+                 ProblemKind::out_of_range, "a place on the machine, {:g} mm wide{}", width,
                  height ? fmt::format(" and {:g} mm high", *height) : "");
   }
   if (height && -page.bottom_mm > *height) {
-    problems.add("the page",
-                 fmt::format("down to {:g} mm", -page.bottom_mm),
-                 ProblemKind::out_of_range,
-                 "a page that ends within the machine's {:g} mm",
+    problems.add("the page", fmt::format("down to {:g} mm", -page.bottom_mm),
+                 ProblemKind::out_of_range, "a page that ends within the machine's {:g} mm",
                  *height);
   }
 }
@@ -185,9 +173,7 @@ void take_calibration(SettingReader& settings, PlotterMachine& machine, Problems
   if (extended && measured) machine.pulley_radius_mm *= *measured / *extended;
   if (extended.has_value() == measured.has_value()) return;
   problems.add(
-      extended ? kMeasured : kExtended,
-      "",
-      ProblemKind::missing,
+      extended ? kMeasured : kExtended, "", ProblemKind::missing,
       "both distances of the calibration: the extended length, and the same length by tape");
 }
 
@@ -224,9 +210,7 @@ SetPlotter settings_of(const std::string& text, Problems& problems) {
   if (is_of_polargraph(text)) return of_polargraph(text, problems);
   if (has_line_with(text, kTopDistance)) return of_mural(text, problems);
   if (is_marlin(text)) return plotter_of_marlin(text, problems);
-  problems.add("",
-               "no settings of a V-plotter",
-               ProblemKind::missing,
+  problems.add("", "no settings of a V-plotter", ProblemKind::missing,
                "FluidNC's config.yaml with a WallPlotter, Marlin's M665 and M92 or its "
                "Configuration.h, a Polargraph properties file, or for a mural a line such as \"top "
                "distance: 1500 mm\"");

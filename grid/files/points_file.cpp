@@ -27,8 +27,8 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
                                    {"commanded_y_mm", kCoordinateMm, is_sheet}},
                                   problems);
   if (table.rows.empty() && !problems.any()) {
-    problems.add(
-        "", "a header line only", ProblemKind::empty_file, "at least one line of numbers below it");
+    problems.add("", "a header line only", ProblemKind::empty_file,
+                 "at least one line of numbers below it");
   }
   problems.throw_if_any();
   std::vector<model::MarkPoint> points;

@@ -33,9 +33,8 @@ std::size_t errors_between(std::string_view a, std::string_view b) {
 /// True for `left` and `left_mm`: people omit the unit.
 bool is_without_unit(std::string_view word, std::string_view candidate) {
   return !word.empty() && candidate.size() > word.size() && candidate[word.size()] == '_' &&
-         std::equal(word.begin(), word.end(), candidate.begin(), [](char a, char b) {
-           return lower(a) == lower(b);
-         });
+         std::equal(word.begin(), word.end(), candidate.begin(),
+                    [](char a, char b) { return lower(a) == lower(b); });
 }
 
 /// Limits the number of problems of one kind: of one file, with the same expectation. The number of
@@ -67,9 +66,7 @@ std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
 
 }  // namespace
 
-void Problems::add(std::string place,
-                   std::string_view value,
-                   ProblemKind kind,
+void Problems::add(std::string place, std::string_view value, ProblemKind kind,
                    std::string expected) {
   list_.push_back({file_, std::move(place), shortened(value), std::move(expected), {}, kind});
 }

@@ -30,10 +30,8 @@ class Problems {
   /// `value` is shortened to 60 characters and made printable here.
   void add(std::string place, std::string_view value, ProblemKind kind, std::string expected);
   template <class... Args>
-  requires(sizeof...(Args) > 0) void add(std::string place,
-                                         std::string_view value,
-                                         ProblemKind kind,
-                                         fmt::format_string<Args...> expected,
+  requires(sizeof...(Args) > 0) void add(std::string place, std::string_view value,
+                                         ProblemKind kind, fmt::format_string<Args...> expected,
                                          Args&&... args) {
     add(std::move(place), value, kind, fmt::format(expected, std::forward<Args>(args)...));
   }
@@ -49,8 +47,8 @@ class Problems {
   void explain(std::string place, ProblemKind kind, std::string sentence);
   void warn(std::string place, std::string sentence);
   template <class... Args>
-  requires(sizeof...(Args) >
-           0) void warn(std::string place, fmt::format_string<Args...> sentence, Args&&... args) {
+  requires(sizeof...(Args) > 0) void warn(std::string place, fmt::format_string<Args...> sentence,
+                                          Args&&... args) {
     warn(std::move(place), fmt::format(sentence, std::forward<Args>(args)...));
   }
   /// Warns of what may be a mistake of this kind.

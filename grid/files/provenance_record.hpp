@@ -18,8 +18,8 @@ Record<Provenance> provenance_record();
 /// The key, for a record whose files are completed by with_made_by.
 template <class T>
 Record<T>& add_made_by_key(Record<T>& record) {
-  return record.beside(
-      "made_by", "Provenance; absent if unknown.", false, object(provenance_record()));
+  return record.beside("made_by", "Provenance; absent if unknown.", false,
+                       object(provenance_record()));
 }
 
 /// The document with that key at its end, if known.

@@ -60,8 +60,7 @@ Record<ExtraReading> reading_record() {
   constexpr double kSmallestSigma = 1e-9;
   RECORD(ExtraReading, "a reading")
   REQUIRED(what, "The quantity that was measured.", reading_name())
-  SPARSE(side,
-         "For a pitch: left, right or both; for a tape error: x, y or both.",
+  SPARSE(side, "For a pitch: left, right or both; for a tape error: x, y or both.",
          one_of({"left", "right", "both", "x", "y"}))
   REQUIRED(value, "Its value, in the unit at the end of the quantity's name.", {"", -kAny, kAny})
   REQUIRED(sigma, "1 sigma, in the same unit.", {"", kSmallestSigma, kAny}).check(check_reading);

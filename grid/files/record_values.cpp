@@ -11,17 +11,15 @@ namespace chaintrue::grid::files {
 
 Value<std::size_t> index_number(int least, int most) {
   return converted<std::size_t>(
-      integer(least, most),
-      [](int value) { return as_size(value); },
+      integer(least, most), [](int value) { return as_size(value); },
       [](std::size_t value) { return static_cast<int>(value); });
 }
 
 Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order) {
   const Value<std::vector<double>> numbers = list(number(range), 2);
-  const std::string expected = fmt::format("a pair of numbers{}{}{}",
-                                           range.unit.empty() ? "" : " in ",
-                                           range.unit,
-                                           in_order ? ", the lower one first" : "");
+  const std::string expected =
+      fmt::format("a pair of numbers{}{}{}", range.unit.empty() ? "" : " in ", range.unit,
+                  in_order ? ", the lower one first" : "");
   return {[numbers, expected, in_order](const Cursor& at) -> std::optional<Eigen::Vector2d> {
             const auto read = numbers.read(at);
             if (!read || read->size() < 2) return std::nullopt;

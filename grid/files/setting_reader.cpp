@@ -25,17 +25,11 @@ constexpr std::size_t kMostSettings = 5000;
 constexpr std::size_t kMostNamed = 60;
 
 /// \param places of the keys so far \return false, and reports it, if the key is already there
-bool is_first(std::map<std::string, std::string>& places,
-              const std::string& key,
-              const std::string& place,
-              std::string_view line,
-              Problems& problems) {
+bool is_first(std::map<std::string, std::string>& places, const std::string& key,
+              const std::string& place, std::string_view line, Problems& problems) {
   const auto [same, is_new] = places.emplace(key, place);
   if (!is_new) {
-    problems.add(place,
-                 line,
-                 ProblemKind::repeated_key,
-                 "this key only once; it is already at {}",
+    problems.add(place, line, ProblemKind::repeated_key, "this key only once; it is already at {}",
                  same->second);
   }
   return is_new;
@@ -55,8 +49,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-SettingReader::SettingReader(SettingTexts texts,
-                             Problems& problems,
+SettingReader::SettingReader(SettingTexts texts, Problems& problems,
                              std::vector<std::string> folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
   if (texts_.size() > kMostSettings)
@@ -86,13 +79,10 @@ std::optional<double> SettingReader::find(const std::string& key, const Range& r
 
 std::optional<double> SettingReader::need(const std::string& key, const Range& range) {
   if (look(key) == nullptr) {
-    problems_.add(
-        key,
-        "",
-        ProblemKind::missing,
-        folders_.empty()
-            ? range.expected()
-            : fmt::format("{}, in [{}]", range.expected(), fmt::join(folders_, "] or [")));
+    problems_.add(key, "", ProblemKind::missing,
+                  folders_.empty() ? range.expected()
+                                   : fmt::format("{}, in [{}]", range.expected(),
+                                                 fmt::join(folders_, "] or [")));
   }
   return find(key, range);
 }
@@ -102,20 +92,16 @@ std::optional<std::string> SettingReader::find_word(const std::string& key,
   const SettingText* setting = look(key);
   if (setting == nullptr) return std::nullopt;
   if (contains(words, setting->text)) return setting->text;
-  problems_.add(setting->place,
-                setting->text.empty() ? "nothing" : setting->text,
-                ProblemKind::unknown_word,
-                "{} ({})",
-                fmt::join(words, " or "),
-                key);
+  problems_.add(setting->place, setting->text.empty() ? "nothing" : setting->text,
+                ProblemKind::unknown_word, "{} ({})", fmt::join(words, " or "), key);
   return std::nullopt;
 }
 
 void SettingReader::refuse_others() {
   for (const auto& [path, setting] : texts_) {
     if (!read_.contains(path))
-      problems_.add(
-          setting.place, path, ProblemKind::unknown_word, "one of {}", fmt::join(asked_, ", "));
+      problems_.add(setting.place, path, ProblemKind::unknown_word, "one of {}",
+                    fmt::join(asked_, ", "));
   }
 }
 
@@ -138,10 +124,7 @@ void SettingReader::warn_of_others(std::string_view says_what) {
   if (names.empty()) return;
   const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
   names.resize(names.size() - more);
-  problems_.warn("",
-                 "ignored, because none of it {}: {}{}",
-                 says_what,
-                 fmt::join(names, ", "),
+  problems_.warn("", "ignored, because none of it {}: {}{}", says_what, fmt::join(names, ", "),
                  more == 0 ? "" : fmt::format(" and {} more", more));
 }
 
@@ -218,9 +201,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
     }
     const std::size_t sign = line.find_first_of("=:");
     if (sign == 0 || sign == std::string_view::npos || section.empty()) {
-      problems.add(place,
-                   line,
-                   ProblemKind::bad_syntax,
+      problems.add(place, line, ProblemKind::bad_syntax,
                    "[a section] or key = value in a section, as in an ini file");
       if (++strange == kMostStrangeLines) break;
       continue;

@@ -65,8 +65,8 @@ void Sha256::add(std::string_view bytes) {
   bytes_ += bytes.size();
   while (!bytes.empty()) {
     const std::size_t taken = std::min(bytes.size(), kBlockBytes - waiting_bytes_);
-    std::copy_n(
-        bytes.begin(), taken, waiting_.begin() + static_cast<std::ptrdiff_t>(waiting_bytes_));
+    std::copy_n(bytes.begin(), taken,
+                waiting_.begin() + static_cast<std::ptrdiff_t>(waiting_bytes_));
     waiting_bytes_ += taken;
     bytes.remove_prefix(taken);
     if (waiting_bytes_ < kBlockBytes) return;

@@ -117,11 +117,8 @@ const Record<StatedSweep>& sweep_record() {
     OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
     OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
     FIELD(
-        computed,
-        "evaluation",
-        "Columns x rows of places where the map is compared with the truth.",
-        false,
-        grid_size(1),
+        computed, "evaluation",
+        "Columns x rows of places where the map is compared with the truth.", false, grid_size(1),
         [](StatedSweep& stated, const GridLevel& size) {
           stated.evaluation_columns = size.columns;
           stated.evaluation_rows = size.rows;
@@ -132,30 +129,20 @@ const Record<StatedSweep>& sweep_record() {
     OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
     OPTIONAL(spacings, "Spacing of the marks; a factor.", list(spacing, 1))
     OPTIONAL(noises, "Noise of the readings; a factor.", list(noise_level_record(), 1))
-    OPTIONAL(jitters_mm,
-             "Largest distance of the sled from its mark; a factor.",
+    OPTIONAL(jitters_mm, "Largest distance of the sled from its mark; a factor.",
              list(number({"mm", 0.0, 1000.0}), 1))
     OPTIONAL(surfaces, "Kind of map; a factor.", list(surface, 1))
-    NAMED(required,
-          "machines",
-          machine_files,
-          "The machines; a factor.",
+    NAMED(required, "machines", machine_files, "The machines; a factor.",
           list(stated_machine_record(), 1))
     OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
-    NAMED(optional,
-          "used_on",
-          uses,
-          "The machine that the map is used on; a factor.",
+    NAMED(optional, "used_on", uses, "The machine that the map is used on; a factor.",
           list(use_record(), 1));
   }();
   return record;
 }
 
-void read_machines(const fs::path& path,
-                   const std::vector<std::string>& effects,
-                   StatedSweep& stated,
-                   std::set<std::string>& given,
-                   Problems& problems) {
+void read_machines(const fs::path& path, const std::vector<std::string>& effects,
+                   StatedSweep& stated, std::set<std::string>& given, Problems& problems) {
   // Several levels may name one file; its warnings are given once.
   std::map<std::string, model::Machine> known;
   bool effects_are_sound = true;  // their problems are reported once
@@ -190,8 +177,7 @@ void read_machines(const fs::path& path,
 
 /// Every effect must be able to act on every machine of the sweep.
 void check_effects(const SweepSpec& spec, Problems& problems) {
-  const auto check = [&](const std::string& list,
-                         std::size_t index,
+  const auto check = [&](const std::string& list, std::size_t index,
                          const std::vector<model::AppliedEffect>& effects) {
     for (const sweep::MachineLevel& level : spec.machines) {
       model::Machine machine = level.truth;
@@ -215,11 +201,8 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
   for (const auto& level : spec.effects) remove(level.effects);
   for (const auto& level : spec.uses) remove(level.effects);
   for (const std::string& id : given)
-    problems.add("/effects",
-                 "",
-                 ProblemKind::missing,
-                 "a line that names {}, or --effects without its file",
-                 id);
+    problems.add("/effects", "", ProblemKind::missing,
+                 "a line that names {}, or --effects without its file", id);
 }
 
 }  // namespace

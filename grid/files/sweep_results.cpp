@@ -59,16 +59,12 @@ std::string summary_head(const SweepSpec& spec) {
   return fmt::format(
       "{{\n  \"file_type\": \"{}\",\n  \"format_version\": \"{}\",\n  \"name\": {},\n"
       "  \"question\": {},\n  \"repetitions\": {},\n  \"combinations\": [\n",
-      kSweepSummaryFormat.file_type,
-      kSweepSummaryFormat.version,
-      compact_json(spec.name),
-      compact_json(spec.question),
-      spec.repetitions);
+      kSweepSummaryFormat.file_type, kSweepSummaryFormat.version, compact_json(spec.name),
+      compact_json(spec.question), spec.repetitions);
 }
 
 /// The line of one combination.
-std::string summary_line(const SweepSpec& spec,
-                         const Levels& levels,
+std::string summary_line(const SweepSpec& spec, const Levels& levels,
                          const std::vector<CellResult>& repetitions) {
   Json line = Json::object();
   for (std::size_t factor = 0; factor < kFactors; ++factor)
@@ -123,8 +119,7 @@ class LevelSums {
 
 }  // namespace
 
-std::vector<LevelError> write_results(const SweepSpec& spec,
-                                      const FinishedCells& cells,
+std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells& cells,
                                       const fs::path& directory) {
   const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
   if (missing > 0) throw precondition("sweep: {} of {} cells are missing", missing, cells.size());
@@ -145,8 +140,8 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
       levels_text = csv_levels(spec, levels);
       combination.clear();
     }
-    csv.write(fmt::format(
-        "{}{},{},{}{}\n", cell, levels_text, repetition, name(result.status), csv_values(result)));
+    csv.write(fmt::format("{}{},{},{}{}\n", cell, levels_text, repetition, name(result.status),
+                          csv_values(result)));
     sums.add(levels, result);
     combination.push_back(result);
     if (repetition + 1 == repetitions) {

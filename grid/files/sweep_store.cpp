@@ -112,8 +112,7 @@ FinishedCells finished_cells(const fs::path& directory, const ReadSweep& read) {
     std::getline(in, line);
     if (in.eof() && header.starts_with(line)) continue;  // stopped before its first cell
     if (line + '\n' != header) {
-      refuse(entry->path().string(),
-             "cells of another sweep",
+      refuse(entry->path().string(), "cells of another sweep",
              "an empty folder, or one with parts of the same specification");
     }
     while (std::getline(in, line)) take_line(line, cells);
@@ -121,8 +120,7 @@ FinishedCells finished_cells(const fs::path& directory, const ReadSweep& read) {
   return cells;
 }
 
-sweep::CellStore cells_kept_in(const fs::path& directory,
-                               const ReadSweep& read,
+sweep::CellStore cells_kept_in(const fs::path& directory, const ReadSweep& read,
                                const sweep::Share& share) {
   const auto before = std::make_shared<const FinishedCells>(finished_cells(directory, read));
   return {[before](std::uint64_t cell) { return (*before)[as_size(cell)].has_value(); },

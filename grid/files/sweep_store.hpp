@@ -38,8 +38,7 @@ FinishedCells finished_cells(const std::filesystem::path& directory, const ReadS
 
 /// The store of a folder for run_sweep: its parts, and a part of the share's own to append to.
 /// \throws InputError as finished_cells(), or if it cannot be written.
-sweep::CellStore cells_kept_in(const std::filesystem::path& directory,
-                               const ReadSweep& read,
+sweep::CellStore cells_kept_in(const std::filesystem::path& directory, const ReadSweep& read,
                                const sweep::Share& share);
 
 /// A point of the report's lines: error for one factor's level at one number of points, over all
@@ -55,8 +54,7 @@ struct LevelError {
 
 /// Writes results.csv and summary.json. \returns the data of the report's charts. \throws
 /// std::logic_error where a cell is not finished.
-std::vector<LevelError> write_results(const sweep::SweepSpec& spec,
-                                      const FinishedCells& cells,
+std::vector<LevelError> write_results(const sweep::SweepSpec& spec, const FinishedCells& cells,
                                       const std::filesystem::path& directory);
 
 }  // namespace chaintrue::grid::files

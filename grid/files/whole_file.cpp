@@ -37,8 +37,7 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
   std::size_t count = 0;
   while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) {
     if (text.size() + count > kMostBytes) {
-      refuse(name,
-             "a larger file",
+      refuse(name, "a larger file",
              fmt::format("at most {} MB; no file of measurements or settings is larger",
                          kMostBytes >> 20U),
              ProblemKind::file_kind);
@@ -46,10 +45,8 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
     text.append(buffer, count);
   }
   if (std::ferror(file) != 0) {
-    refuse(name,
-           fmt::format("a read error ({})", system_words(errno)),
-           "a file that can be read to its end",
-           ProblemKind::unreadable_file);
+    refuse(name, fmt::format("a read error ({})", system_words(errno)),
+           "a file that can be read to its end", ProblemKind::unreadable_file);
   }
   Sha256 hash;
   hash.add(text);
@@ -66,14 +63,11 @@ void check_is_text(const std::string& text, const std::string& name) {
   };
   using namespace std::string_view_literals;
   constexpr Kind kKinds[] = {
-      {"PK\x03\x04"sv,
-       "a spreadsheet of Excel or LibreOffice (.xlsx, .ods), or a zip archive",
+      {"PK\x03\x04"sv, "a spreadsheet of Excel or LibreOffice (.xlsx, .ods), or a zip archive",
        "text: open it in the spreadsheet and save it as CSV"},
-      {"\xD0\xCF\x11\xE0"sv,
-       "an old Excel spreadsheet (.xls)",
+      {"\xD0\xCF\x11\xE0"sv, "an old Excel spreadsheet (.xls)",
        "text: open it in a spreadsheet and save it as CSV"},
-      {"%PDF"sv,
-       "a PDF",
+      {"%PDF"sv, "a PDF",
        "text: the contents of a PDF must be typed, or saved as CSV in the program that made it"},
       {"\x89PNG"sv, "a picture", "text: the numbers must be typed"},
       {"\xFF\xD8\xFF"sv, "a picture", "text: the numbers must be typed"},
@@ -151,11 +145,7 @@ std::string read_whole_file(const fs::path& path) {
         errno == ENOENT
             ? fmt::format("There is no file {}{}.", name, path.has_parent_path() ? "" : " here")
             : fmt::format("{} cannot be read: {}.", name, system_words(errno));
-    throw InputError({{"",
-                       "",
-                       name,
-                       "a file that can be opened for reading",
-                       sentence,
+    throw InputError({{"", "", name, "a file that can be opened for reading", sentence,
                        ProblemKind::unreadable_file}});
   }
   return read_text(file.get(), path);
@@ -177,9 +167,7 @@ void write_whole_files(const std::vector<OutputFile>& outputs) {
         output.path == "-" ? "-" : fs::weakly_canonical(output.path, error).string();
     const bool is_device = fs::is_character_file(output.path, error);
     if (!is_device && !names.insert(place).second)
-      refuse(output.path.string(),
-             "a name given twice",
-             "a different file for each output",
+      refuse(output.path.string(), "a name given twice", "a different file for each output",
              ProblemKind::output_repeated);
     files.push_back(pending.emplace_back(std::make_unique<PendingFile>(output.path)).get());
     files.back()->write(output.text);

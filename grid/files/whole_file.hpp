@@ -25,8 +25,7 @@ T read(T (*parse)(const std::string& text, const std::string& file),
 }
 template <class T, class Options>
 T read(T (*parse)(const std::string& text, const std::string& file, Options options),
-       const std::filesystem::path& path,
-       std::type_identity_t<Options> options = {}) {
+       const std::filesystem::path& path, std::type_identity_t<Options> options = {}) {
   return parse(read_whole_file(path), name_in_messages(path), options);
 }
 /// \throws InputError if the path is a directory, its directory is missing, or it cannot be

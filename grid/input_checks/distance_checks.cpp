@@ -70,9 +70,7 @@ TrendRows distance_rows(const MeasuredHoles& set) {
 using HoleTransformations = Transformations<MeasuredHoles>;
 
 /// For the holes, which all distances share.
-Transformation& add_of_holes(HoleTransformations& list,
-                             ProblemKind kind,
-                             std::string sentence,
+Transformation& add_of_holes(HoleTransformations& list, ProblemKind kind, std::string sentence,
                              const std::function<void(MeasuredHoles&)>& mend) {
   Transformation& own =
       list.add(kind, std::move(sentence), [mend](MeasuredHoles& meant, std::size_t row) {
@@ -85,9 +83,7 @@ Transformation& add_of_holes(HoleTransformations& list,
 /// Where a hole was commanded, by what its numbers mean.
 using MeantPlace = std::function<model::BedPoint(model::BedPoint)>;
 
-void add_of_commands(HoleTransformations& list,
-                     ProblemKind kind,
-                     std::string sentence,
+void add_of_commands(HoleTransformations& list, ProblemKind kind, std::string sentence,
                      const MeantPlace& meant) {
   add_of_holes(list, kind, std::move(sentence), [meant](MeasuredHoles& set) {
     for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
@@ -101,17 +97,13 @@ void add_units(HoleTransformations& list, Written written) {
         ProblemKind::other_unit,
         fmt::format("the distances look like {}, the holes' x_mm and y_mm like mm: multiply the "
                     "distances by {:g}{}",
-                    unit.word,
-                    factor,
-                    factor == kMmPerInch ? or_say_inches(written) : ""),
+                    unit.word, factor, factor == kMmPerInch ? or_say_inches(written) : ""),
         [=](MeasuredHoles& meant, std::size_t row) { meant.distances[row].distance_mm *= factor; });
     add_of_commands(
-        list,
-        ProblemKind::other_unit,
+        list, ProblemKind::other_unit,
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
-                    unit.word,
-                    factor),
+                    unit.word, factor),
         [=](model::BedPoint p) {
           return model::BedPoint{p.x_mm * factor, p.y_mm * factor};
         });
@@ -145,8 +137,7 @@ void add_axes(HoleTransformations& list) {
 }
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
-void add_holes(const MeasuredHoles& set,
-               const std::vector<bool>& is_gross,
+void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross,
                HoleTransformations& list) {
   for (std::size_t h = 0; h < set.holes.size(); ++h) {
     std::size_t of_it = 0;
@@ -160,28 +151,22 @@ void add_holes(const MeasuredHoles& set,
     const auto number = [&](const char* axis, double model::BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
-        add_of_holes(list,
-                     ProblemKind::doubtful_row,
-                     fmt::format("the {1} at which hole {0} was cut is {2}: {3}",
-                                 name,
-                                 axis,
-                                 digits_of(written),
-                                 slip.question),
+        add_of_holes(list, ProblemKind::doubtful_row,
+                     fmt::format("the {1} at which hole {0} was cut is {2}: {3}", name, axis,
+                                 digits_of(written), slip.question),
                      [=](MeasuredHoles& meant) { meant.holes[h].commanded.*of = slip.value; })
             .penalty = slip.penalty;
       }
     };
     number("x_mm", &model::BedPoint::x_mm);
     number("y_mm", &model::BedPoint::y_mm);
-    add_of_holes(list,
-                 ProblemKind::doubtful_row,
+    add_of_holes(list, ProblemKind::doubtful_row,
                  fmt::format("are x_mm and y_mm of hole {} swapped?", name),
                  [=](MeasuredHoles& meant) {
                    std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
                  });
     for (std::size_t other = 0; other < h; ++other) {
-      add_of_holes(list,
-                   ProblemKind::other_order,
+      add_of_holes(list, ProblemKind::other_order,
                    fmt::format("holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
                      std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
@@ -279,11 +264,9 @@ struct DistanceRows {
       if (!is_gross(row)) continue;
       const std::string question = question_of(row);
       if (question.empty()) continue;
-      found.push_back({row,
-                       fmt::format("{} is {} off the prediction by the others: {}",
-                                   words_of(set, set.distances[row]),
-                                   length_in_words(residual_mm(row)),
-                                   question)});
+      found.push_back({row, fmt::format("{} is {} off the prediction by the others: {}",
+                                        words_of(set, set.distances[row]),
+                                        length_in_words(residual_mm(row)), question)});
     }
     return found;
   }
@@ -309,17 +292,13 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   add_holes(set, is_gross, list);
   add_slips(set, list);
   std::vector<Candidate> candidates =
-      searched(sigma_mm, written_rows, list.take(), [](std::size_t row) {
-        return fmt::format("{}", row + 1);
-      });
+      searched(sigma_mm, written_rows, list.take(),
+               [](std::size_t row) { return fmt::format("{}", row + 1); });
   const std::size_t tried = candidates.size() + 2 * set.distances.size();
   const Account plain = account_of(trend);
   Findings findings;
   findings.whole =
-      whole_finding(std::move(candidates),
-                    plain,
-                    tried,
-                    kOddDistances,
+      whole_finding(std::move(candidates), plain, tried, kOddDistances,
                     fmt::format("half of the distances differ by more than {} from the commanded "
                                 "ones",
                                 length_in_words(median_mm)));

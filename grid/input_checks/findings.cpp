@@ -11,13 +11,10 @@
 
 namespace chaintrue::grid::input_checks {
 
-std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
-                                          const Account& plain,
-                                          std::size_t tried,
-                                          double odd_trend,
-                                          std::string found) {
-  const double needed = plain.log_likelihood + kHundredTimes +
-                        std::log(as_double(std::max<std::size_t>(tried, 1)));
+std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates, const Account& plain,
+                                          std::size_t tried, double odd_trend, std::string found) {
+  const double needed =
+      plain.log_likelihood + kHundredTimes + std::log(as_double(std::max<std::size_t>(tried, 1)));
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Account& account = candidate.account;
     return !(account.median_mm < kSoundMm) || !(account.prior_chi_square < odd_trend) ||
@@ -27,12 +24,8 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
   stable_sort(candidates,
               descending([](const Candidate& one) { return one.account.log_likelihood; }));
   const Candidate& best = candidates.front();
-  WholeFinding finding{best.from_row,
-                       best.sentence,
-                       std::move(found),
-                       best.is_doubtful,
-                       best.account.median_mm,
-                       best.kind};
+  WholeFinding finding{best.from_row,    best.sentence,          std::move(found),
+                       best.is_doubtful, best.account.median_mm, best.kind};
   // Two accounts this near each other are both reported.
   constexpr double kEquallyLikely = 3.0;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
@@ -51,14 +44,15 @@ std::string_view or_say_inches(Written written) {
 
 std::string WholeFinding::sentence() const {
   if (!mended_mm) return fmt::format("{} ({})", mistake, found);
-  return fmt::format(
-      "{} (as it is, {}; corrected, they agree to {:.1f} mm)", mistake, found, *mended_mm);
+  return fmt::format("{} (as it is, {}; corrected, they agree to {:.1f} mm)", mistake, found,
+                     *mended_mm);
 }
 
 std::string length_in_words(double mm) {
   constexpr double kOneMetreMm = 1000.0;
   if (!std::isfinite(mm)) return "out of reach";
-  return mm < kOneMetreMm ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.1f} m", mm / kOneMetreMm);
+  return mm < kOneMetreMm ? fmt::format("{:.0f} mm", mm)
+                          : fmt::format("{:.1f} m", mm / kOneMetreMm);
 }
 
 }  // namespace chaintrue::grid::input_checks

@@ -86,8 +86,8 @@ std::string digits_of(double value) { return fmt::format("{:.10g}", value); }
 std::vector<NumberError> number_errors(double written, bool is_signed) {
   Slips slips(written);
   if (is_signed) {
-    slips.add(
-        -written, written > 0.0 ? "is the minus missing?" : "is there a minus too many?", kSign);
+    slips.add(-written, written > 0.0 ? "is the minus missing?" : "is there a minus too many?",
+              kSign);
   }
   const auto tape = [&](double by_mm, const char* why) {
     for (const double value : {written + by_mm, written - by_mm}) {
@@ -105,8 +105,7 @@ std::vector<NumberError> number_errors(double written, bool is_signed) {
     slips.add(written * factor, slips.rather(written * factor), kPoint);
   }
   slips.add(written * kMmPerInch,
-            fmt::format("is it in inches, {} mm?", digits_of(written * kMmPerInch)),
-            kPoint);
+            fmt::format("is it in inches, {} mm?", digits_of(written * kMmPerInch)), kPoint);
   add_digit_errors(digits_of(std::abs(written)), slips);
   return slips.take();
 }

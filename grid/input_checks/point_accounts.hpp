@@ -101,8 +101,7 @@ class PointAccounts {
   }
 
   /// Residual of a mark at a place from a trend.
-  Eigen::Vector2d off(const RobustTrend& trend,
-                      model::MarkPoint mark,
+  Eigen::Vector2d off(const RobustTrend& trend, model::MarkPoint mark,
                       model::BedPoint place) const {
     return difference(mark, place) - (basis_at(place) * trend.coefficients).transpose();
   }

@@ -50,19 +50,13 @@ std::vector<RowError> row_errors(const MeasuredPoint& written) {
     std::swap(slip.meant.lengths->left_mm, slip.meant.lengths->right_mm);
     slips.push_back(std::move(slip));
   }
-  const auto number = [&](const char* name,
-                          bool is_signed,
-                          bool is_reading,
-                          double penalty,
+  const auto number = [&](const char* name, bool is_signed, bool is_reading, double penalty,
                           double& (*of)(MeasuredPoint&)) {
     MeasuredPoint copy = written;
     const double value = of(copy);
     for (NumberError& slip : number_errors(value, is_signed)) {
-      slips.push_back({written,
-                       fmt::format("{} {}", name, digits_of(value)),
-                       std::move(slip.question),
-                       slip.penalty + penalty,
-                       is_reading});
+      slips.push_back({written, fmt::format("{} {}", name, digits_of(value)),
+                       std::move(slip.question), slip.penalty + penalty, is_reading});
       of(slips.back().meant) = slip.value;
     }
   };
@@ -73,12 +67,10 @@ std::vector<RowError> row_errors(const MeasuredPoint& written) {
     number("left_mm", false, true, 0.0, [](Point& p) -> double& { return p.lengths->left_mm; });
     number("right_mm", false, true, 0.0, [](Point& p) -> double& { return p.lengths->right_mm; });
   } else if (written.commanded) {
-    number("commanded_x_mm", true, true, kPrinted, [](Point& p) -> double& {
-      return p.commanded->x_mm;
-    });
-    number("commanded_y_mm", true, true, kPrinted, [](Point& p) -> double& {
-      return p.commanded->y_mm;
-    });
+    number("commanded_x_mm", true, true, kPrinted,
+           [](Point& p) -> double& { return p.commanded->x_mm; });
+    number("commanded_y_mm", true, true, kPrinted,
+           [](Point& p) -> double& { return p.commanded->y_mm; });
   }
   mark(25.4 * x_mm, 25.4 * y_mm, "are x_mm and y_mm in inches?");
   mark(10.0 * x_mm, 10.0 * y_mm, "are x_mm and y_mm in centimetres?");
@@ -121,10 +113,8 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
       false};
 }
 
-std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
-                                        const MeasuredGrid& grid,
-                                        const PlacedPoints& all,
-                                        const RobustTrend& trend,
+std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const MeasuredGrid& grid,
+                                        const PlacedPoints& all, const RobustTrend& trend,
                                         Written written) {
   const std::vector<std::size_t> looked = looked_at(grid.points.size());
   PlacedPoints few;
@@ -136,19 +126,16 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
   const TrendRows few_rows = accounts.rows(few);
   const Account plain = account_of(robust_trend(few_rows, sigma_mm));
   std::vector<Candidate> candidates =
-      searched(sigma_mm,
-               few_rows,
-               point_transformations(accounts, grid, few, written),
+      searched(sigma_mm, few_rows, point_transformations(accounts, grid, few, written),
                [&](std::size_t row) { return number_of(grid, looked[row]); });
   for (Candidate& candidate : candidates) {
     if (candidate.from_row) candidate.from_row = looked[*candidate.from_row];
   }
   // These need neighbours in the file and, with all rows, a separate account of the uncorrected
   // file.
-  std::vector<Candidate> of_all = searched(
-      sigma_mm, accounts.rows(all), slip_transformations(accounts, all), [&](std::size_t row) {
-        return number_of(grid, row);
-      });
+  std::vector<Candidate> of_all =
+      searched(sigma_mm, accounts.rows(all), slip_transformations(accounts, all),
+               [&](std::size_t row) { return number_of(grid, row); });
   const double scale = plain.log_likelihood - trend.log_likelihood;
   for (Candidate& candidate : of_all) {
     candidate.account.log_likelihood += scale;
@@ -156,10 +143,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
   }
   const std::size_t tried = candidates.size() + 2 * grid.points.size();
   auto finding = whole_finding(
-      std::move(candidates),
-      plain,
-      tried,
-      kOddPoints,
+      std::move(candidates), plain, tried, kOddPoints,
       std::isfinite(plain.median_mm)
           ? fmt::format("half of the marks are more than {} from where the machine puts them",
                         length_in_words(plain.median_mm))
@@ -177,8 +161,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
 }
 
 /// Marks that are all rotated by one angle, with much less stretch and skew.
-std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts,
-                                         const MeasuredGrid& grid,
+std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts, const MeasuredGrid& grid,
                                          const RobustTrend& trend) {
   // Motors known to 3 mm rotate the picture by one or two.
   constexpr double kLeastTurn = 8e-3;
@@ -193,8 +176,7 @@ std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts,
                   "at an angle, or is the beam with the motors tilted? If it was placed by hand, "
                   "enter how accurately (\"sheet\": {{\"shift_mm\": 10, \"rotation_mrad\": 20}}); "
                   "otherwise measure from the bed's axes",
-                  kMmPerMetre * std::abs(turn),
-                  turn > 0.0 ? "up" : "down"),
+                  kMmPerMetre * std::abs(turn), turn > 0.0 ? "up" : "down"),
       fmt::format("all marks agree on it to {:.1f} mm", trend.median_residual_mm()),
       true,
       std::nullopt,
@@ -275,8 +257,7 @@ struct PointRows {
     if (!accounts.can_hold(mark)) {
       const bool is_above = mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm);
       return {row,
-              fmt::format("Mark {} is {}: {}",
-                          number,
+              fmt::format("Mark {} is {}: {}", number,
                           is_above ? "above the motors" : "where the machine cannot hold the sled",
                           slip.question),
               true};
@@ -306,8 +287,7 @@ struct PointRows {
         found.push_back({row,
                          fmt::format("Marks {} and {} look exchanged: each is where the other "
                                      "one's reading puts it.",
-                                     number_of(grid, row),
-                                     number_of(grid, *other)),
+                                     number_of(grid, row), number_of(grid, *other)),
                          false});
         continue;
       }

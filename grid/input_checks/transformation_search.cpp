@@ -33,10 +33,8 @@ struct Part {
 };
 
 /// Gain in log-likelihood of each row by the correction, about a trend.
-std::vector<double> gains(const TrendRows& plain,
-                          const TrendRows& mended,
-                          const Eigen::MatrixXd& trend,
-                          double scale_mm) {
+std::vector<double> gains(const TrendRows& plain, const TrendRows& mended,
+                          const Eigen::MatrixXd& trend, double scale_mm) {
   const Index components = plain.off_mm.cols();
   const auto density = [&](const TrendRows& rows, Index i) {
     const double off_mm = (rows.off_mm.row(i) - rows.basis.row(i) * trend).norm();
@@ -68,8 +66,7 @@ double log_choices(std::size_t of, std::size_t taken) {
 
 class Search {
  public:
-  Search(const Eigen::VectorXd& sigma_mm,
-         const TrendRows& plain,
+  Search(const Eigen::VectorXd& sigma_mm, const TrendRows& plain,
          const std::function<std::string(std::size_t)>& name_of_row)
       : sigma_mm_(sigma_mm),
         plain_(plain),
@@ -94,9 +91,7 @@ class Search {
   std::size_t count() const { return as_size(plain_.off_mm.rows()); }
   RobustTrend trend_of(const TrendRows& rows) const { return robust_trend(rows, sigma_mm_); }
 
-  void add(const Transformation& own,
-           const RobustTrend& trend,
-           const Part& part,
+  void add(const Transformation& own, const RobustTrend& trend, const Part& part,
            std::vector<Candidate>& candidates) const {
     Candidate candidate{own.kind, part.words + own.sentence, account_of(trend)};
     candidate.account.log_likelihood -= part.penalty + own.penalty;
@@ -114,13 +109,12 @@ class Search {
   /// Tail, head and single rows, if their total gain suffices for a finding.
   std::vector<Part> parts_of(const Transformation& own, const std::vector<double>& gain) const {
     std::vector<Part> parts;
-    const auto offer =
-        [&](RowSet rows, std::optional<std::size_t> from, std::string words, double penalty) {
-          double sum = 0.0;
-          for (std::size_t i = 0; i < rows.size(); ++i) sum += rows[i] ? gain[i] : 0.0;
-          if (sum > kHundredTimes)
-            parts.push_back({std::move(rows), from, std::move(words), penalty});
-        };
+    const auto offer = [&](RowSet rows, std::optional<std::size_t> from, std::string words,
+                           double penalty) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < rows.size(); ++i) sum += rows[i] ? gain[i] : 0.0;
+      if (sum > kHundredTimes) parts.push_back({std::move(rows), from, std::move(words), penalty});
+    };
     const std::size_t n = count();
     const double cuts = std::log(as_double(n));
     const std::size_t from = tail_of(gain);
@@ -132,8 +126,8 @@ class Search {
     RowSet head(n, false);
     std::fill(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(before), true);
     if (is_part(before))
-      offer(
-          std::move(head), 0, fmt::format("from here to row {} ", name_of_row_(before - 1)), cuts);
+      offer(std::move(head), 0, fmt::format("from here to row {} ", name_of_row_(before - 1)),
+            cuts);
     RowSet some(n, false);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < n; ++i) {
@@ -144,12 +138,8 @@ class Search {
     if (!is_part(taken) || as_double(taken) < kLeastShare * as_double(n)) return parts;
     constexpr std::size_t kMostNamed = 12;
     if (taken > kMostNamed) names.resize(kMostNamed);
-    offer(std::move(some),
-          std::nullopt,
-          fmt::format("in {} of {} rows ({}{}) ",
-                      taken,
-                      n,
-                      fmt::join(names, ", "),
+    offer(std::move(some), std::nullopt,
+          fmt::format("in {} of {} rows ({}{}) ", taken, n, fmt::join(names, ", "),
                       taken > kMostNamed ? ", ..." : ""),
           cuts + log_choices(n, taken));
     return parts;
@@ -158,10 +148,7 @@ class Search {
   bool is_part(std::size_t taken) const { return taken >= kFewestRows && taken < count(); }
 
   /// The part's account; also that of the rows selected by its own trend, if they differ.
-  void refine(const Transformation& own,
-              const TrendRows& all,
-              Part part,
-              std::vector<RowSet>& seen,
+  void refine(const Transformation& own, const TrendRows& all, Part part, std::vector<RowSet>& seen,
               std::vector<Candidate>& candidates) const {
     constexpr int kMostRounds = 3;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -192,8 +179,7 @@ Account account_of(const RobustTrend& trend) {
   return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
 }
 
-std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm,
-                                const TrendRows& as_written,
+std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm, const TrendRows& as_written,
                                 const std::vector<Transformation>& transformations,
                                 const std::function<std::string(std::size_t)>& name_of_row) {
   std::vector<Candidate> candidates;

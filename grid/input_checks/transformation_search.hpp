@@ -54,8 +54,7 @@ class Transformations {
   Transformations(const Data& written, RowsOf rows_of)
       : written_(written), rows_of_(std::move(rows_of)) {}
 
-  Transformation& add(ProblemKind kind,
-                      std::string sentence,
+  Transformation& add(ProblemKind kind, std::string sentence,
                       const std::function<void(Data&, std::size_t row)>& mend) {
     const auto mended = [&written = written_, rows_of = rows_of_, mend](const RowSet& rows) {
       Data meant = written;
@@ -79,8 +78,7 @@ Account account_of(const RobustTrend& trend);
 
 /// An account for each transformation of all rows, and for the likeliest part of them if it is much
 /// likelier than no row. `name_of_row` is the row's own number.
-std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm,
-                                const TrendRows& as_written,
+std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm, const TrendRows& as_written,
                                 const std::vector<Transformation>& transformations,
                                 const std::function<std::string(std::size_t)>& name_of_row);
 

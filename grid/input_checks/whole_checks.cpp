@@ -33,19 +33,16 @@ class List : public Transformations<PlacedPoints> {
       : Transformations(written, [&](const PlacedPoints& meant) { return accounts.rows(meant); }),
         accounts_(accounts) {}
 
-  Transformation& mark(ProblemKind kind,
-                       std::string sentence,
+  Transformation& mark(ProblemKind kind, std::string sentence,
                        const std::function<MarkPoint(MarkPoint, BedPoint)>& meant) {
     return add(kind, std::move(sentence), [meant](PlacedPoints& all, std::size_t row) {
       MarkPoint& mark = all.points[row].mark;
       mark = meant(mark, all.places[row].value_or(BedPoint{mark.x_mm, mark.y_mm}));
     });
   }
-  Transformation& reading(ProblemKind kind,
-                          std::string sentence,
+  Transformation& reading(ProblemKind kind, std::string sentence,
                           const std::function<void(MeasuredPoint&)>& meant) {
-    return add(kind,
-               std::move(sentence),
+    return add(kind, std::move(sentence),
                [&accounts = accounts_, meant](PlacedPoints& all, std::size_t row) {
                  meant(all.points[row]);
                  all.places[row] = accounts.place_of(all.points[row]);
@@ -54,9 +51,8 @@ class List : public Transformations<PlacedPoints> {
   /// Each reading with the mark of another line.
   Transformation& order(ProblemKind kind, std::string sentence, const std::vector<Place>& others) {
     Transformation& own =
-        add(kind, std::move(sentence), [others](PlacedPoints& all, std::size_t row) {
-          all.places[row] = others[row];
-        });
+        add(kind, std::move(sentence),
+            [others](PlacedPoints& all, std::size_t row) { all.places[row] = others[row]; });
     own.of = Transformation::Of::all;
     return own;
   }
@@ -118,11 +114,7 @@ void add_units(List& list, bool reads_lengths, Written written) {
   const auto column_in_inches = [&](const char* column, const char* other, double x, double y) {
     list.mark(ProblemKind::other_unit,
               fmt::format("{} looks like inches, {} and the {} like mm: multiply {} by {:g}",
-                          column,
-                          other,
-                          readings,
-                          column,
-                          kMmPerInch),
+                          column, other, readings, column, kMmPerInch),
               [x, y](MarkPoint m, BedPoint) { return scaled(m, x, y); });
   };
   column_in_inches("x_mm", "y_mm", kMmPerInch, 1.0);
@@ -131,25 +123,18 @@ void add_units(List& list, bool reads_lengths, Written written) {
     list.mark(
         ProblemKind::other_unit,
         fmt::format("x_mm and y_mm look like {}, the {} like mm: multiply x_mm and y_mm by {:g}{}",
-                    unit.word,
-                    readings,
-                    unit.mm,
-                    unit.mm == kMmPerInch ? for_marks : ""),
+                    unit.word, readings, unit.mm, unit.mm == kMmPerInch ? for_marks : ""),
         [unit](MarkPoint m, BedPoint) { return scaled(m, unit.mm, unit.mm); });
   }
   for (const WrittenUnit& unit : kWrittenUnits) {
     list.reading(
         ProblemKind::other_unit,
         fmt::format("the {0} look like {1}, x_mm and y_mm like mm: multiply the {0} by {2:g}",
-                    readings,
-                    unit.word,
-                    unit.mm),
+                    readings, unit.word, unit.mm),
         [unit](MeasuredPoint& point) { scale_reading(point, unit.mm); });
     list.reading(ProblemKind::other_unit,
-                 fmt::format("these look like {}: multiply all of them by {:g}{}",
-                             unit.word,
-                             unit.mm,
-                             unit.mm == kMmPerInch ? for_all : ""),
+                 fmt::format("these look like {}: multiply all of them by {:g}{}", unit.word,
+                             unit.mm, unit.mm == kMmPerInch ? for_all : ""),
                  [unit](MeasuredPoint& point) {
                    scale_reading(point, unit.mm);
                    point.mark = scaled(point.mark, unit.mm, unit.mm);
@@ -171,10 +156,7 @@ void add_shifts(List& list, bool reads_lengths) {
             ProblemKind::constant_offset,
             fmt::format("all {} look {:g} mm too {}: was {}, or are the machine's measures off by "
                         "that amount?",
-                        what,
-                        by_mm,
-                        sign > 0.0 ? "small" : "large",
-                        why),
+                        what, by_mm, sign > 0.0 ? "small" : "large", why),
             [=](MarkPoint m, BedPoint) {
               return MarkPoint{m.x_mm + sign * by_mm * x, m.y_mm + sign * by_mm * y};
             });
@@ -190,23 +172,21 @@ void add_shifts(List& list, bool reads_lengths) {
 
 /// The origin and direction of one coordinate.
 struct Origin {
-  std::string from;   ///< "the left motor"; empty: the bed's middle
-  std::string edge;   ///< of the bed: "left"
-  std::string way;    ///< ", to the left" or ", down" where it counts that way
+  std::string from;  ///< "the left motor"; empty: the bed's middle
+  std::string edge;  ///< of the bed: "left"
+  std::string way;   ///< ", to the left" or ", down" where it counts that way
   double at_mm = 0.0;
   double sign = 1.0;
 };
 
 std::string origin_in_words(const Origin& x, const Origin& y) {
   if (!x.edge.empty() && !y.edge.empty()) {
-    return fmt::format("x_mm and y_mm look counted from the bed's {} {} corner{}{}",
-                       y.edge,
-                       x.edge,
-                       x.way,
-                       y.way);
+    return fmt::format("x_mm and y_mm look counted from the bed's {} {} corner{}{}", y.edge, x.edge,
+                       x.way, y.way);
   }
   const auto one = [](const char* name, const Origin& own) {
-    return own.from.empty() ? std::string() : fmt::format("{} looks counted from {}{}", name, own.from, own.way);
+    return own.from.empty() ? std::string()
+                            : fmt::format("{} looks counted from {}{}", name, own.from, own.way);
   };
   return one("x_mm", x) + (x.from.empty() || y.from.empty() ? "" : " and ") + one("y_mm", y);
 }
@@ -249,19 +229,17 @@ void add_origins(List& list, const model::Machine& machine) {
 }
 
 void add_lengths(List& list) {
-  list.reading(ProblemKind::sides_swapped,
-               "the columns left_mm and right_mm look swapped", [](MeasuredPoint& point) {
-    if (point.lengths) std::swap(point.lengths->left_mm, point.lengths->right_mm);
-  });
+  list.reading(ProblemKind::sides_swapped, "the columns left_mm and right_mm look swapped",
+               [](MeasuredPoint& point) {
+                 if (point.lengths) std::swap(point.lengths->left_mm, point.lengths->right_mm);
+               });
   const auto longer = [&](double left_mm, double right_mm, std::string_view what, double by_mm) {
     for (const double sign : {1.0, -1.0}) {
       list.reading(
           ProblemKind::constant_offset,
           fmt::format("{} look {:g} mm too {}: they count from the sprocket's 12 o'clock; was the "
                       "tape held at another mark?",
-                      what,
-                      by_mm,
-                      sign > 0.0 ? "small" : "large"),
+                      what, by_mm, sign > 0.0 ? "small" : "large"),
           [=](MeasuredPoint& point) {
             if (!point.lengths) return;
             point.lengths->left_mm += sign * left_mm;
@@ -291,8 +269,7 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
     for (std::size_t j = 0; j < written.places.size(); ++j) {
       const Place& place = written.places[j];
       if (!place || taken[j]) continue;
-      const double apart =
-          distance_mm(point.mark, *place);
+      const double apart = distance_mm(point.mark, *place);
       if (best && apart >= least) continue;
       best = j;
       least = apart;
@@ -308,8 +285,7 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
 
 std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                   const MeasuredGrid& grid,
-                                                  const PlacedPoints& written,
-                                                  Written as) {
+                                                  const PlacedPoints& written, Written as) {
   const bool reads_lengths =
       any_of(written.points, [](const MeasuredPoint& point) { return point.lengths.has_value(); });
   List list(accounts, written);
@@ -341,20 +317,19 @@ std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
       const bool is_there = i + by >= 0 && i + by < n;
       slipped.push_back(is_there ? written.places[as_size(i + by)] : std::nullopt);
     }
-    list.order(
-        ProblemKind::row_slip,
-        fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
-                    written.points.front().lengths ? "lengths" : "command",
-                    by < 0 ? "before" : "after",
-                    by < 0 ? "written twice, or missing from the other columns"
-                           : "missing, or written twice in the other columns"),
-        slipped).of = Transformation::Of::tail;
+    list.order(ProblemKind::row_slip,
+               fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
+                           written.points.front().lengths ? "lengths" : "command",
+                           by < 0 ? "before" : "after",
+                           by < 0 ? "written twice, or missing from the other columns"
+                                  : "missing, or written twice in the other columns"),
+               slipped)
+        .of = Transformation::Of::tail;
   }
-  list.order(
-      ProblemKind::other_order,
-      fmt::format("one of the two lists, marks and {}, seems to be in reverse order",
-                  readings_of(written)),
-      {written.places.rbegin(), written.places.rend()});
+  list.order(ProblemKind::other_order,
+             fmt::format("one of the two lists, marks and {}, seems to be in reverse order",
+                         readings_of(written)),
+             {written.places.rbegin(), written.places.rend()});
   return list.take();
 }
 

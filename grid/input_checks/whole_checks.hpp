@@ -14,8 +14,7 @@ namespace chaintrue::grid::input_checks {
 /// The errors possible for such points on `grid`'s machine. All three must outlive the result.
 std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                   const MeasuredGrid& grid,
-                                                  const PlacedPoints& written,
-                                                  Written as);
+                                                  const PlacedPoints& written, Written as);
 
 /// Errors of slipped lines, which need neighbours in the file.
 std::vector<Transformation> slip_transformations(const PointAccounts& accounts,

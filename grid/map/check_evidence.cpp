@@ -82,8 +82,7 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
     all.push_back(proposal_of(readings, change));
   all.push_back(plain(model::Change::unknown, CheckVerdict::measure_again, prior.unknown));
   for (const CheckUnit& unit : readings.units) {
-    Proposal bad = plain(model::Change::bad_point,
-                         CheckVerdict::measure_again,
+    Proposal bad = plain(model::Change::bad_point, CheckVerdict::measure_again,
                          prior.bad_point / as_double(readings.units.size()));
     bad.hypothesis.count = static_cast<int>(unit.index);
     bad.hypothesis.name = unit.name;
@@ -195,8 +194,7 @@ class Evidence {
   }
 
   /// Fills the hypothesis; returns the addition to the evidence for a quantity that can only grow.
-  static double take_posterior(Proposal& proposal,
-                               const Eigen::VectorXd& q,
+  static double take_posterior(Proposal& proposal, const Eigen::VectorXd& q,
                                const Eigen::MatrixXd& covariance) {
     double added = 0.0;
     for (std::size_t k = 0; k < proposal.quantity_of_q.size(); ++k) {

@@ -112,14 +112,11 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
       Reason::too_many_readings,
       fmt::format("{} {} are more than a check accepts ({}); three to five far from each other "
                   "show as much. For a map from all of them, use chaintrue fit",
-                  found,
-                  what,
-                  most));
+                  found, what, most));
 }
 
 /// The covariance of the mean of a mark's readings.
-Eigen::Matrix2d noise_at(const CheckedPart& part,
-                         const Repeated& one,
+Eigen::Matrix2d noise_at(const CheckedPart& part, const Repeated& one,
                          const Eigen::Matrix2d& by_mark) {
   Eigen::Matrix2d covariance =
       observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
@@ -240,9 +237,8 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
     const MarkPoint mark = marks[as_size(i)];
     const auto found = map.with_spread(mark);
     if (!found) {
-      return failed(
-          Reason::unreachable,
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, found.error().sentence()));
+      return failed(Reason::unreachable, fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm,
+                                                     found.error().sentence()));
     }
     at.lengths.push_back(found->here.lengths);
     at.by_mark.push_back(found->here.mark_jacobian);
@@ -253,11 +249,9 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
       at.covariance.push_back(map.query(mark)->covariance);
     }
     if (surface == nullptr) continue;
-    at.by_parameter.middleRows<2>(2 * i) =
-        observation::lengths_by_setting({*model, surface->sheet},
-                                        model->at(surface->sheet.to_bed(mark)).value(),
-                                        mark,
-                                        {kOfMachine.begin(), kOfMachine.end()});
+    at.by_parameter.middleRows<2>(2 * i) = observation::lengths_by_setting(
+        {*model, surface->sheet}, model->at(surface->sheet.to_bed(mark)).value(), mark,
+        {kOfMachine.begin(), kOfMachine.end()});
   }
   return at;
 }
@@ -307,8 +301,8 @@ class Gathered {
 
   void add_points(const CheckedPart& part, std::size_t first, const std::string& of) {
     const Eigen::Index before = row();
-    const Eigen::Vector3d laid(
-        part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
+    const Eigen::Vector3d laid(part.placement.x_mm, part.placement.y_mm,
+                               part.placement.rotation_rad);
     Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const LengthPoint& point = part.points[i].point;

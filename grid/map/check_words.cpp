@@ -22,8 +22,7 @@ void decide(Check& check) {
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
   check.decided = *best >= kDecided;
   // Reports the strongest support for the verdict first.
-  const auto first = std::find_if(check.hypotheses.begin(),
-                                  check.hypotheses.end(),
+  const auto first = std::find_if(check.hypotheses.begin(), check.hypotheses.end(),
                                   [&](const auto& h) { return h.verdict == check.verdict; });
   std::rotate(check.hypotheses.begin(), first, first + 1);
 }
@@ -31,8 +30,7 @@ void decide(Check& check) {
 std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
   if (h.what == model::Change::nothing) return "nothing has changed";
   if (h.what == model::Change::bad_point) return fmt::format("only {} is wrong", h.name);
-  if (h.what == model::Change::unknown)
-    return "something has changed that has no known pattern";
+  if (h.what == model::Change::unknown) return "something has changed that has no known pattern";
   return words.change(h);
 }
 
@@ -43,9 +41,7 @@ std::string sentence_of(const Check& check, const CheckWords& words) {
     return fmt::format(
         "Measure {} again ({:.0f} %): only this reading is wrong, and it does not show whether {} "
         "is valid.",
-        first.name,
-        percent,
-        words.subject);
+        first.name, percent, words.subject);
   }
   const bool rezero = check.verdict == CheckVerdict::valid_after_rezeroing;
   const std::string& head = check.verdict == CheckVerdict::valid ? words.valid
@@ -81,8 +77,7 @@ QuantityFound found_of(const CheckHypothesis& h, Quantity::Kind kind, std::size_
 }
 
 /// Root of the mean square of some of the residuals' numbers.
-double rms_over(const CheckUnit& unit,
-                const std::vector<CheckResidual>& residuals,
+double rms_over(const CheckUnit& unit, const std::vector<CheckResidual>& residuals,
                 double CheckResidual::*number) {
   double square = 0.0;
   for (std::size_t k = unit.first_row; k < unit.first_row + unit.rows; ++k)

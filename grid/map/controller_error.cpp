@@ -20,10 +20,8 @@ constexpr int kColumns = 25;
 constexpr int kRows = 13;
 
 /// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
-std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map,
-                                           BedPoint at,
-                                           model::ChainLengths here,
-                                           BedPoint middle) {
+std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map, BedPoint at,
+                                           model::ChainLengths here, BedPoint middle) {
   // The error of a one-sided step is half of it over a chain's length, 5e-6; that of rounding 1e-7.
   constexpr double kStepMm = 0.01;
   Eigen::Matrix2d jacobian;

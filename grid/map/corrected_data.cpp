@@ -34,11 +34,8 @@ Machine with_effects_that(Machine machine, Keep keep) {
 std::string names_of(const Machine& machine) {
   std::string names;
   for (const AppliedEffect& applied : machine.effects) {
-    names += fmt::format("{}{}{}{}",
-                         names.empty() ? "" : ", ",
-                         applied.effect,
-                         applied.side.empty() ? "" : " ",
-                         applied.side);
+    names += fmt::format("{}{}{}{}", names.empty() ? "" : ", ", applied.effect,
+                         applied.side.empty() ? "" : " ", applied.side);
   }
   return names;
 }
@@ -49,13 +46,11 @@ tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
   if (read) return *std::move(read);
   return failed(FitReason::point_unreachable,
                 fmt::format("point {} cannot be reached by the machine in your file: {}",
-                            read.error().place + 1,
-                            read.error().sentence()));
+                            read.error().place + 1, read.error().sentence()));
 }
 
 /// Removes the visit effects from the readings, which are in the order of the points.
-tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
-                                                const Machine& with_visits,
+tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid, const Machine& with_visits,
                                                 const Machine& without) {
   const auto points = length_points(grid);
   if (!points) return failed(FitReason::no_lengths, points.error());

@@ -30,8 +30,7 @@ class DistancesPart final : public FitPart {
     std::string sentence = fmt::format(
         "{} of {} distances contradict the others or the machine file; check the machine's "
         "measures, the controller's settings, and which holes the distances join",
-        bad,
-        all);
+        bad, all);
     if (const auto tape_zero = suspected_tape_zero_offset_mm(set())) {
       sentence += fmt::format(", and whether the tape's hook offset ({:.0f} mm?) was left out",
                               std::round(*tape_zero));
@@ -39,9 +38,7 @@ class DistancesPart final : public FitPart {
     return sentence;
   }
 
-  void add_to(MapDraft& draft,
-              const Fitting& fitting,
-              std::size_t file,
+  void add_to(MapDraft& draft, const Fitting& fitting, std::size_t file,
               const std::string& name) const override {
     FittedDistances fit = fitted_distances(*distances_, fitting.estimate, file);
     for (const FittedHole& hole : fit.holes)
@@ -53,9 +50,7 @@ class DistancesPart final : public FitPart {
     const DistancesUsed used = distances_used(fit.distances, set().tape.sigma_mm);
     draft.sources.push_back(fmt::format(
         "{} distances between {} holes of {}{}, each predicted by the others within {:.2f} mm rms",
-        fit.distances.size(),
-        fit.holes.size(),
-        name,
+        fit.distances.size(), fit.holes.size(), name,
         used.rejected == 0 ? "" : fmt::format(" ({} left out)", used.rejected),
         used.left_out_good.rms_mm));
     if (fitting.input.surface == estimation::SurfaceUse::on_evidence)
@@ -75,8 +70,8 @@ class DistancesPart final : public FitPart {
       draft.map.points.push_back(map_point(hole));
     }
     if (fit.file > 0) return;
-    draft.map.noise = {
-        0.0, set().hole_sigma_mm, NoiseSource::stated, fitting.estimate.noise_factor};
+    draft.map.noise = {0.0, set().hole_sigma_mm, NoiseSource::stated,
+                       fitting.estimate.noise_factor};
     draft.tape_sigma_mm = set().tape.sigma_mm;
   }
 
@@ -86,17 +81,15 @@ class DistancesPart final : public FitPart {
     notes.push_back(
         fmt::format("The distances scatter {:.1f} times as much as you entered ({:g} mm for the "
                     "tape, {:g} mm for a hole), so the results are that much less certain.",
-                    factor,
-                    set().tape.sigma_mm,
-                    set().hole_sigma_mm));
+                    factor, set().tape.sigma_mm, set().hole_sigma_mm));
   }
 
   void note_frame(std::vector<std::string>& notes) const {
     const observation::SheetPrior& measured = *distances_->sheet();
     std::string free;
-    for (const auto& [is_measured, word] : {std::pair(measured.knows_x, "sideways"),
-                                            std::pair(measured.knows_y, "up and down"),
-                                            std::pair(measured.knows_rotation, "rotation")}) {
+    for (const auto& [is_measured, word] :
+         {std::pair(measured.knows_x, "sideways"), std::pair(measured.knows_y, "up and down"),
+          std::pair(measured.knows_rotation, "rotation")}) {
       if (!is_measured) free += fmt::format("{}{}", free.empty() ? "" : ", ", word);
     }
     if (free.empty()) return;

@@ -114,9 +114,7 @@ tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
       fmt::format("--surface direct needs a point at every crossing of full rows and columns; "
                   "these points form {} columns and {} rows with {} empty crossings. If the sled "
                   "was off its marks, --surface residual accepts the points as they are",
-                  nx,
-                  ny,
-                  missing));
+                  nx, ny, missing));
 }
 
 /// SurfaceKind::direct.
@@ -131,9 +129,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   const LineErrors rows = leave_lines_out(lattice, options.ends, false);
   MapContents map;
   map.name = grid.name;
-  map.domain = {lattice.x_nodes_mm.front(),
-                lattice.x_nodes_mm.back(),
-                lattice.y_nodes_mm.front(),
+  map.domain = {lattice.x_nodes_mm.front(), lattice.x_nodes_mm.back(), lattice.y_nodes_mm.front(),
                 lattice.y_nodes_mm.back()};
   std::vector<model::MarkPoint> marks;
   for (const LengthPoint& point : *points) marks.push_back(point.mark);
@@ -142,10 +138,8 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   map.edge_mm = area.edge_mm();
   const StatedNoise assumed;
   const StatedNoise noise = grid.noise.value_or(assumed);
-  map.noise = {noise.length_mm,
-               noise.position_mm,
-               grid.noise ? NoiseSource::stated : NoiseSource::assumed,
-               1.0};
+  map.noise = {noise.length_mm, noise.position_mm,
+               grid.noise ? NoiseSource::stated : NoiseSource::assumed, 1.0};
   std::vector<HeldOutResidual> lines = columns.residuals;
   append_all(lines, rows.residuals);
   map.accuracy.leave_one_out = summarise(lines);
@@ -153,15 +147,13 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   const HeldOutError by_rows = summarise(rows.residuals);
   map.accuracy.blocked = by_columns.tool.rms_mm > by_rows.tool.rms_mm ? by_columns : by_rows;
   map.surface =
-      DirectSurface{lattice.x_nodes_mm,
-                    lattice.y_nodes_mm,
-                    lattice.lengths_mm,
-                    options.ends,
+      DirectSurface{lattice.x_nodes_mm, lattice.y_nodes_mm, lattice.lengths_mm, options.ends,
                     std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
   map.notes.push_back(
       "The lengths were interpolated without a machine. With few points the error between them "
       "reaches millimetres near the motors, however accurately each point was measured. "
-      "Leave-one-out here leaves out one column or row at a time; blocked is the worse of the two.");
+      "Leave-one-out here leaves out one column or row at a time; blocked is the worse of the "
+      "two.");
   const CompensationMap bare(map);
   for (const LengthPoint& point : *points) {
     const auto here = bare.lengths(point.mark);

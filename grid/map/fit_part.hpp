@@ -67,9 +67,7 @@ class FitPart {
   /// Why a single file has too few good units.
   virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;
   /// Puts the file, `file` by its number, into the map. `name` is empty if it is the only one.
-  virtual void add_to(MapDraft& draft,
-                      const Fitting& fitting,
-                      std::size_t file,
+  virtual void add_to(MapDraft& draft, const Fitting& fitting, std::size_t file,
                       const std::string& name) const = 0;
 };
 

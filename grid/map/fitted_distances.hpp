@@ -48,8 +48,7 @@ struct FittedDistances {
   std::optional<FoundTapeZero> tape_zero;
 };
 FittedDistances fitted_distances(const observation::TapeDistances& distances,
-                                 const estimation::Estimate& estimate,
-                                 std::size_t observation);
+                                 const estimation::Estimate& estimate, std::size_t observation);
 
 /// A hole as a point of a map.
 MapPoint map_point(const FittedHole& hole);

@@ -20,12 +20,10 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
 
 /// On the sheet. The controller uses neither the stated machine nor the catenary; a machine that
 /// reaches its commanded places is right.
-Eigen::Vector2d landed_minus_sent(model::BedPoint commanded,
-                            const model::SheetPlacement& sheet,
-                            model::MarkPoint mark) {
+Eigen::Vector2d landed_minus_sent(model::BedPoint commanded, const model::SheetPlacement& sheet,
+                                  model::MarkPoint mark) {
   const model::BedPoint place = sheet.to_bed(mark);
-  return sheet.rotation().transpose() *
-         difference(place, commanded);
+  return sheet.rotation().transpose() * difference(place, commanded);
 }
 
 /// Fits the placement of the sheet under the uncalibrated machine, by weighted least squares on its
@@ -60,8 +58,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
 /// Where the tool landed minus where the uncalibrated machine puts it: the command, or the position
 /// of the lengths; zero if that machine has no pose.
 Eigen::Vector2d error_as_stated(const model::ReadingModel& model,
-                              const model::SheetPlacement& sheet,
-                              const LengthPoint& point) {
+                                const model::SheetPlacement& sheet, const LengthPoint& point) {
   if (point.commanded) return landed_minus_sent(*point.commanded, sheet, point.mark);
   const auto reading = model.at(sheet.to_bed(point.mark));
   if (!reading) return Eigen::Vector2d::Zero();
@@ -77,9 +74,8 @@ std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
   std::vector<FittedPoint> fitted;
   for (const estimation::UnitEstimate& unit : estimate.units) {
     if (unit.observation != observation) continue;
-    fitted.push_back({unit,
-                      points[unit.unit],
-                      estimate.observations[observation].places[unit.unit].by_mark});
+    fitted.push_back(
+        {unit, points[unit.unit], estimate.observations[observation].places[unit.unit].by_mark});
   }
   return fitted;
 }
@@ -98,8 +94,7 @@ MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points) {
   return accuracy;
 }
 
-std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
-                                 const MeasuredGrid& grid,
+std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points, const MeasuredGrid& grid,
                                  const observation::PointNoise& noise) {
   const model::ReadingModel stated(*grid.machine);
   const model::SheetPlacement laid =

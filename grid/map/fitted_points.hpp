@@ -27,8 +27,7 @@ std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
 MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points);
 
 /// Each point of the map alongside the grid's machine as stated.
-std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
-                                 const MeasuredGrid& grid,
+std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points, const MeasuredGrid& grid,
                                  const observation::PointNoise& noise);
 
 struct LatticeFit {

@@ -66,9 +66,8 @@ tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
     auto part =
         set == nullptr ? part_of(*file.grid()) : part_of(with_grids ? with_true_tape(*set) : *set);
     if (!part) {
-      return failed(
-          part.error().reason,
-          (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence());
+      return failed(part.error().reason, (files.size() > 1 ? file.name + ": " : std::string{}) +
+                                             part.error().sentence());
     }
     parts.push_back(*std::move(part));
   }
@@ -128,10 +127,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
         alone ? parts[k]->few_good(bad, all)
               : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
                             "all from one machine, with the same chains on the same teeth?",
-                            files[k].name,
-                            bad,
-                            all,
-                            parts[k]->observation->kind().units));
+                            files[k].name, bad, all, parts[k]->observation->kind().units));
   }
   return {};
 }
@@ -164,8 +160,7 @@ tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& fil
 }
 
 /// Sessions whose chains were hung differently from the map's session.
-void note_zeros(const std::vector<MeasuredFile>& files,
-                const estimation::Estimate& estimate,
+void note_zeros(const std::vector<MeasuredFile>& files, const estimation::Estimate& estimate,
                 std::vector<std::string>& notes) {
   const auto own = [&](std::size_t k) -> const auto& { return estimate.observations[k].zeros; };
   std::size_t of_map = 0;
@@ -177,17 +172,12 @@ void note_zeros(const std::vector<MeasuredFile>& files,
     notes.push_back(
         fmt::format("{}: the chains' zeros differ from those in {}: {}. The map is for the zeros "
                     "of {}. If the machine now has the other zeros, name that file first.",
-                    files[k].name,
-                    files[of_map].name,
-                    words,
-                    files[of_map].name));
+                    files[k].name, files[of_map].name, words, files[of_map].name));
   }
 }
 
-std::vector<std::string> notes_of(const Parts& parts,
-                                  const Fitting& fitting,
-                                  const std::vector<MeasuredFile>& files,
-                                  const MapDraft& draft,
+std::vector<std::string> notes_of(const Parts& parts, const Fitting& fitting,
+                                  const std::vector<MeasuredFile>& files, const MapDraft& draft,
                                   const std::vector<SettingResult>& settings) {
   std::vector<std::string> notes;
   const auto append = [&notes](const std::vector<std::string>& more) { append_all(notes, more); };
@@ -197,10 +187,8 @@ std::vector<std::string> notes_of(const Parts& parts,
         fmt::format("Fitted together: {}. The map's frame is that of {}. The noise is {:.2f} "
                     "times what the files state; the fewest degrees of freedom in any of them, "
                     "{:g}, keep this factor near 1.",
-                    fmt::join(draft.sources, "; "),
-                    files.front().name,
-                    fitting.estimate.noise_factor,
-                    fitting.input.noise.degrees_of_freedom));
+                    fmt::join(draft.sources, "; "), files.front().name,
+                    fitting.estimate.noise_factor, fitting.input.noise.degrees_of_freedom));
     note_zeros(files, fitting.estimate, notes);
   }
   append(draft.notes);
@@ -256,15 +244,12 @@ CompensationMap with_held_out_error(CompensationMap map, const std::vector<Fitte
                        "the bed are off by {:.2f} mm, more than the scatter of the readings. The "
                        "larger number is reported. The map lacks some cause; chaintrue diagnose "
                        "looks for it.",
-                       expected_mm,
-                       larger_mm)});
+                       expected_mm, larger_mm)});
 }
 
 /// The map's statements about itself, collected file by file.
-CompensationMap map_of(const std::vector<MeasuredFile>& files,
-                       const Parts& parts,
-                       const Fitting& fitting,
-                       MapDraft& draft) {
+CompensationMap map_of(const std::vector<MeasuredFile>& files, const Parts& parts,
+                       const Fitting& fitting, MapDraft& draft) {
   const bool alone = files.size() == 1;
   MapContents& map = draft.map;
   map.surface = model_surface(fitting.estimate);
@@ -315,12 +300,12 @@ tl::expected<void, FitFailure> check_readings_of(const model::Machine& machine,
   const model::Machine read = with_readings(machine, readings);
   std::string problems;
   for (const model::MachineProblem& problem : model::problems_of(read)) {
-    problems += fmt::format(
-        " {} would be {}, expected {};", problem.parameter, problem.value, problem.expected);
+    problems += fmt::format(" {} would be {}, expected {};", problem.parameter, problem.value,
+                            problem.expected);
   }
   for (const auto& problem : model::effects::problems_of_effects(read)) {
-    problems += fmt::format(
-        " {} would be {}, expected {};", problem.parameter, problem.value, problem.expected);
+    problems += fmt::format(" {} would be {}, expected {};", problem.parameter, problem.value,
+                            problem.expected);
   }
   if (problems.empty()) return {};
   problems.back() = '.';
@@ -352,9 +337,7 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
   MapDraft draft;
   CompensationMap map = map_of(files, *parts, *fitting, draft);
   if (options.outside.way != Outside::continued) map = map.with_outside(options.outside);
-  return JointFit{std::move(fitting->estimate),
-                  std::move(draft.points),
-                  std::move(draft.distances),
+  return JointFit{std::move(fitting->estimate), std::move(draft.points), std::move(draft.distances),
                   std::move(map)};
 }
 

@@ -56,10 +56,8 @@ Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis,
   constexpr int kPerFunction = 2;
   constexpr double kRidge = 1e-6;
   const std::vector<model::MarkPoint> marks =
-      raster(basis.rectangle(),
-             kPerFunction * static_cast<int>(basis.columns_x()),
-             kPerFunction * static_cast<int>(basis.columns_y()),
-             RasterOf::nodes);
+      raster(basis.rectangle(), kPerFunction * static_cast<int>(basis.columns_x()),
+             kPerFunction * static_cast<int>(basis.columns_y()), RasterOf::nodes);
   const auto count = std::ssize(differences);
   Eigen::MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
   Eigen::Index used = 0;

@@ -84,9 +84,7 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const estimation::Estimate& esti
 
 /// The longer line's prediction of a left-out node, NaN if it cannot be filled: the measure of the
 /// surface's error between the nodes.
-double predicted(const LatticeNodes& places,
-                 Eigen::MatrixXd values,
-                 Eigen::Index ix,
+double predicted(const LatticeNodes& places, Eigen::MatrixXd values, Eigen::Index ix,
                  Eigen::Index iy) {
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
@@ -145,11 +143,10 @@ LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks) {
     y.push_back(mark.y_mm);
   }
   LatticeNodes nodes{lines_at(std::move(x)), lines_at(std::move(y)), {}, {}};
-  nodes.visits =
-      Eigen::MatrixXi::Zero(std::ssize(nodes.x_nodes_mm), std::ssize(nodes.y_nodes_mm));
+  nodes.visits = Eigen::MatrixXi::Zero(std::ssize(nodes.x_nodes_mm), std::ssize(nodes.y_nodes_mm));
   for (const model::MarkPoint& mark : marks) {
-    const auto [ix, iy] = nodes.of_mark.emplace_back(std::array{
-        line_at(nodes.x_nodes_mm, mark.x_mm), line_at(nodes.y_nodes_mm, mark.y_mm)});
+    const auto [ix, iy] = nodes.of_mark.emplace_back(
+        std::array{line_at(nodes.x_nodes_mm, mark.x_mm), line_at(nodes.y_nodes_mm, mark.y_mm)});
     ++nodes.visits(ix, iy);
   }
   return nodes;

@@ -10,8 +10,7 @@
 namespace chaintrue::grid {
 namespace {
 
-void name_rows(const observation::BeltLengthReadings& observed,
-               const model::Mechanism& mechanism,
+void name_rows(const observation::BeltLengthReadings& observed, const model::Mechanism& mechanism,
                CheckReadings& readings) {
   for (std::size_t u = 0; u < observed.units().size(); ++u) {
     const observation::Unit& unit = observed.units()[u];
@@ -47,8 +46,7 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   const auto line = observed.linearise(view, {.parameters = true});
   if (!line) {
     return failed(CheckReason::unreachable,
-                  fmt::format("point {}: {}",
-                              observed.places()[line.error().place].name,
+                  fmt::format("point {}: {}", observed.places()[line.error().place].name,
                               line.error().sentence()));
   }
   const auto lengths = std::ssize(fitted.mechanism->lengths());
@@ -71,8 +69,8 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
     const Eigen::MatrixXd by_length = by_length_of(place, unit);
     for (Eigen::Index i = 0; i < by_length.rows(); ++i) {
       for (Eigen::Index k = 0; k < lengths; ++k)
-        entries.emplace_back(
-            observed.units()[as_size(u)].first_row + i, lengths * u + k, by_length(i, k));
+        entries.emplace_back(observed.units()[as_size(u)].first_row + i, lengths * u + k,
+                             by_length(i, k));
     }
     readings.covariance.own.push_back(unit.covariance);
   }
@@ -88,8 +86,7 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
 }  // namespace
 
 tl::expected<Check, CheckFailure> check_lengths(
-    const FittedMechanism& fitted,
-    const std::vector<observation::LengthsAtPlace>& places,
+    const FittedMechanism& fitted, const std::vector<observation::LengthsAtPlace>& places,
     const CheckWords& words) {
   const observation::BeltLengthReadings observed(
       places, false, {fitted.length_mm, fitted.position_mm}, fitted.noise_dof);

@@ -37,7 +37,6 @@ struct FittedMechanism {
 /// Places with too few lengths for a check are left out.
 /// \throws std::invalid_argument for a noise that is not positive.
 [[nodiscard]] tl::expected<Check, CheckFailure> check_lengths(
-    const FittedMechanism& fitted,
-    const std::vector<observation::LengthsAtPlace>& places,
+    const FittedMechanism& fitted, const std::vector<observation::LengthsAtPlace>& places,
     const CheckWords& words);
 }  // namespace chaintrue::grid

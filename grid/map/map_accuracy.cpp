@@ -85,20 +85,14 @@ MirrorTest test_mirror(const CompensationMap& map) {
     test.sentence = fmt::format(
         "The right chain mirrors the left one within the noise: the largest difference at {} "
         "points is {:.2f} mm.",
-        test.points,
-        std::abs(test.worst_signed_mm));
+        test.points, std::abs(test.worst_signed_mm));
   } else {
     test.sentence = fmt::format(
         "The right chain does not mirror the left one: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than "
         "the left chain at the mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One "
         "surface for both chains would put that error into every part.",
-        test.worst_at.x_mm,
-        test.worst_at.y_mm,
-        std::abs(test.worst_signed_mm),
-        than(test.worst_signed_mm),
-        test.difference.rms_mm,
-        test.points,
-        test.mean_mm);
+        test.worst_at.x_mm, test.worst_at.y_mm, std::abs(test.worst_signed_mm),
+        than(test.worst_signed_mm), test.difference.rms_mm, test.points, test.mean_mm);
   }
   return test;
 }

@@ -18,25 +18,20 @@ std::string chain_words(const std::string& side) {
 std::string words_of_chains(const CheckHypothesis& h) {
   if (h.what == model::Change::zero && h.side == "both") {
     return fmt::format("the zeros have shifted, the left by {:+.2f} mm and the right by {:+.2f} mm",
-                       h.added(0).value,
-                       h.added(1).value);
+                       h.added(0).value, h.added(1).value);
   }
   if (h.what == model::Change::zero) {
-    return fmt::format(
-        "the zero of {} has shifted by {:+.2f} mm", chain_words(h.side), h.size());
+    return fmt::format("the zero of {} has shifted by {:+.2f} mm", chain_words(h.side), h.size());
   }
   if (h.what == model::Change::tooth) {
-    return fmt::format("{} skipped {} {}: it reads {:.2f} mm too {}",
-                       chain_words(h.side),
+    return fmt::format("{} skipped {} {}: it reads {:.2f} mm too {}", chain_words(h.side),
                        std::abs(h.count) == 1 ? "one" : "two",
-                       std::abs(h.count) == 1 ? "tooth" : "teeth",
-                       std::abs(h.size()),
+                       std::abs(h.count) == 1 ? "tooth" : "teeth", std::abs(h.size()),
                        h.count > 0 ? "much" : "little");
   }
   if (h.what == model::Change::pitch || h.what == model::Change::zeros_and_pitch) {
     const double growth = h.elongation(h.side == "right" ? 1 : 0).value;
-    return fmt::format("the links of {} have grown by {:.3f} %{}",
-                       chain_words(h.side),
+    return fmt::format("the links of {} have grown by {:.3f} %{}", chain_words(h.side),
                        100.0 * growth,
                        h.what == model::Change::pitch ? "" : ", and the zeros have shifted");
   }
@@ -64,15 +59,13 @@ CheckWords words_of_map(bool sets_chains) {
                                              "and check again. No number in the settings corrects "
                                              "this. "
                                            : "",
-                               check.new_zero_mm[0],
-                               check.new_zero_mm[1]);
+                               check.new_zero_mm[0], check.new_zero_mm[1]);
           }};
 }
 
 }  // namespace
 
-tl::expected<Check, CheckFailure> check_map(const CompensationMap& map,
-                                            const Measured& measured,
+tl::expected<Check, CheckFailure> check_map(const CompensationMap& map, const Measured& measured,
                                             const Progress& progress) {
   return check_readings(map, measured, progress).map([&](const CheckReadings& readings) {
     tell(progress, {"what may have changed", 2, 2});

@@ -42,8 +42,7 @@ class DesignSpread {
         basis_(surface.residual.basis),
         factor_(surface.covariance_factor.transpose()) {}
 
-  Eigen::Matrix2Xd operator()(MarkPoint mark,
-                              const MapLengths& /*here*/,
+  Eigen::Matrix2Xd operator()(MarkPoint mark, const MapLengths& /*here*/,
                               const model::PointReading* reading) const {
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading->position_jacobian * sheet_.sensitivity(mark);
@@ -92,8 +91,7 @@ struct NodeSpread {
   double least_share;
   MapNoise noise;
 
-  Eigen::Matrix2Xd operator()(MarkPoint mark,
-                              const MapLengths& here,
+  Eigen::Matrix2Xd operator()(MarkPoint mark, const MapLengths& here,
                               const model::PointReading* /*reading*/) const {
     const Eigen::MatrixXd weights = splines.cardinal_weights(mark.x_mm, mark.y_mm);
     const double between = interpolation_sigma_mm * interpolation_sigma_mm *
@@ -129,8 +127,8 @@ MapField::MapField(const MapContents& contents) {
     const std::vector<double>&x = direct->x_nodes_mm, &y = direct->y_nodes_mm;
     const auto axes = std::make_shared<const interp::TensorAxes>(x, y, direct->ends);
     const auto spline = [&](const Eigen::MatrixXd& lengths_mm) {
-      return std::make_shared<const interp::TensorSpline>(
-          axes, lengths_mm, parabola_slopes(x, y, lengths_mm));
+      return std::make_shared<const interp::TensorSpline>(axes, lengths_mm,
+                                                          parabola_slopes(x, y, lengths_mm));
     };
     const auto left = spline(direct->lengths_mm.left);
     surfaces_ = {left, spline(direct->lengths_mm.right)};
@@ -208,8 +206,7 @@ Eigen::Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
 namespace {
 
 /// For the lines that are the rows of `values`, at their first node or, reversed, at their last.
-Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
-                              const Eigen::MatrixXd& values,
+Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes, const Eigen::MatrixXd& values,
                               bool last) {
   const auto at = [&](Eigen::Index i) { return last ? std::ssize(nodes) - 1 - i : i; };
   const auto node = [&](Eigen::Index i) { return nodes[as_size(at(i))]; };
@@ -227,10 +224,8 @@ interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
                                    const std::vector<double>& y_nodes_mm,
                                    const Eigen::MatrixXd& values) {
   const Eigen::MatrixXd along_x = values.transpose();
-  return {slopes_at_end(x_nodes_mm, along_x, false),
-          slopes_at_end(x_nodes_mm, along_x, true),
-          slopes_at_end(y_nodes_mm, values, false),
-          slopes_at_end(y_nodes_mm, values, true)};
+  return {slopes_at_end(x_nodes_mm, along_x, false), slopes_at_end(x_nodes_mm, along_x, true),
+          slopes_at_end(y_nodes_mm, values, false), slopes_at_end(y_nodes_mm, values, true)};
 }
 
 }  // namespace chaintrue::grid

@@ -45,8 +45,8 @@ class MapField {
   const model::SheetPlacement& sheet() const { return sheet_; }
 
   /// The uncertainty of an answer; what the machine reads at the mark is null for a map without one.
-  using SpreadAt = std::function<Eigen::Matrix2Xd(
-      model::MarkPoint, const MapLengths&, const model::PointReading*)>;
+  using SpreadAt = std::function<Eigen::Matrix2Xd(model::MarkPoint, const MapLengths&,
+                                                  const model::PointReading*)>;
 
  private:
   /// Adds the map's continuation minus the surfaces' own. \returns its lengths; zero within the

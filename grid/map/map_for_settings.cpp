@@ -23,8 +23,7 @@ void tell_of(const model::ControllerKinematics& controller, MapPoint& point) {
 
 }  // namespace
 
-CompensationMap map_for_settings(const CompensationMap& map,
-                                 const model::Controller& now,
+CompensationMap map_for_settings(const CompensationMap& map, const model::Controller& now,
                                  const std::string& note) {
   MapContents contents = map.contents();
   auto* surface = std::get_if<ModelSurface>(&contents.surface);

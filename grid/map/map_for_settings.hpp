@@ -20,8 +20,7 @@ namespace chaintrue::grid {
 
 /// The tool's error with the settings as stated is reported for `now`. `note` is added to the map's
 /// notes, unless it is empty. \throws std::invalid_argument for a map without a machine.
-CompensationMap map_for_settings(const CompensationMap& map,
-                                 const model::Controller& now,
+CompensationMap map_for_settings(const CompensationMap& map, const model::Controller& now,
                                  const std::string& note);
 
 /// Files whose commands went to a controller with `settings`; a file without a machine uses the

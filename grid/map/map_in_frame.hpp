@@ -29,8 +29,8 @@ class MapInFrame final : public LengthMap {
       model::BedPoint point) const override {
     const auto found = map_.query(mark_of(point));
     if (!found) return tl::unexpected(found.error());
-    return LengthsAnswer{
-        vector_of(found->lengths), found->sigma, found->tool_sigma_mm, found->status};
+    return LengthsAnswer{vector_of(found->lengths), found->sigma, found->tool_sigma_mm,
+                         found->status};
   }
 
   [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(

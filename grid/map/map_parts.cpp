@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
@@ -38,8 +38,8 @@ std::vector<SettingResult> setting_results(const model::Machine& stated,
   std::vector<SettingResult> results;
   for (std::size_t i = 0; i < estimate.settings.size(); ++i) {
     const auto at = as_index(i);
-    SettingResult result{
-        estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)), false};
+    SettingResult result{estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)),
+                         false};
     if (i < model::kMachineSettings.size()) {
       result.stated = model::stated_value(stated, result.setting);
       result.calibrated = model::stated_value(estimate.machine, result.setting);
@@ -65,8 +65,7 @@ void note_settings_off(const std::vector<SettingResult>& settings,
     notes.push_back(
         fmt::format("{} differs by {:+.3f} from your file, more than three times its uncertainty. "
                     "Measure it again; if it is right, something else imitates it.",
-                    model::name(setting.setting),
-                    setting.calibrated - setting.stated));
+                    model::name(setting.setting), setting.calibrated - setting.stated));
   }
 }
 

@@ -36,8 +36,7 @@ class MeasuredArea {
     edge_mm_ = 0.5 * std::sqrt(hull_.area() / as_double(points.size()));
   }
   /// From a hull as written in a file: counter-clockwise corners, and half the points' spacing.
-  MeasuredArea(const std::vector<model::MarkPoint>& hull,
-               double edge_mm,
+  MeasuredArea(const std::vector<model::MarkPoint>& hull, double edge_mm,
                const interp::Rectangle& domain)
       : hull_(hull_of(hull)), edge_mm_(edge_mm), domain_(domain) {}
 

@@ -53,8 +53,7 @@ model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
   return sheet;
 }
 
-MechanismSpread spread_about(const Eigen::VectorXd& values,
-                             const Eigen::MatrixXd& covariance,
+MechanismSpread spread_about(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
                              const PlacedAt& placed) {
   MechanismSpread spread{placed(values), {}};
   const linear::SymmetricEigen parts(covariance);
@@ -74,8 +73,7 @@ MechanismMap MechanismMap::of(const FittedMechanism& fitted,
   std::vector<model::MarkPoint> points;
   for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
   return {best,
-          spread_about(fitted.mechanism->values(),
-                       fitted.covariance,
+          spread_about(fitted.mechanism->values(), fitted.covariance,
                        [&](const Eigen::VectorXd& values) {
                          return PlacedMechanism{fitted.mechanism->with_values(values), best.sheet};
                        }),
@@ -85,8 +83,8 @@ MechanismMap MechanismMap::of(const FittedMechanism& fitted,
 tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint point) const {
   if (!area_.domain().contains(point.x_mm, point.y_mm))
     return tl::unexpected(MapReason::outside_map);
-  const auto found = fitted_.mechanism->predict(
-      fitted_.sheet.in_frame(point), {}, model::Derivatives::by_position);
+  const auto found = fitted_.mechanism->predict(fitted_.sheet.in_frame(point), {},
+                                                model::Derivatives::by_position);
   if (!found) return tl::unexpected(unreachable(found.error()));
   return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
 }

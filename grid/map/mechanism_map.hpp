@@ -66,8 +66,7 @@ struct MechanismSpread {
   std::vector<PlacedMechanism> others;
 };
 using PlacedAt = std::function<PlacedMechanism(const Eigen::VectorXd& values)>;
-MechanismSpread spread_about(const Eigen::VectorXd& values,
-                             const Eigen::MatrixXd& covariance,
+MechanismSpread spread_about(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
                              const PlacedAt& placed);
 
 class MechanismMap : public LengthMap {

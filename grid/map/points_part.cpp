@@ -61,8 +61,7 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
       notes.push_back(
           fmt::format("No reading at ({:.0f}, {:.0f}) was used; the map there comes from the row "
                       "or column through it and is accurate to about {:.2g} mm.",
-                      lattice.x_nodes_mm[as_size(ix)],
-                      lattice.y_nodes_mm[as_size(iy)],
+                      lattice.x_nodes_mm[as_size(ix)], lattice.y_nodes_mm[as_size(iy)],
                       lattice.doubt_mm(ix, iy)));
     }
   }
@@ -125,19 +124,16 @@ class PointsPart final : public FitPart {
     return fmt::format(
         "{} of {} points contradict the others or the machine file; check the machine's measures, "
         "the order of the columns and the units",
-        bad,
-        all);
+        bad, all);
   }
 
-  void add_to(MapDraft& draft,
-              const Fitting& fitting,
-              std::size_t file,
+  void add_to(MapDraft& draft, const Fitting& fitting, std::size_t file,
               const std::string& name) const override {
     std::vector<FittedPoint> points = points_of(fitting, file);
     if (lattice_) replace_residuals(points, *lattice_);
     if (draft.points.empty()) {
-      draft.map.noise = {
-          noise_.length_mm, noise_.position_mm, source_, fitting.estimate.noise_factor};
+      draft.map.noise = {noise_.length_mm, noise_.position_mm, source_,
+                         fitting.estimate.noise_factor};
     }
     if (name.empty()) note_noise(draft);
     std::size_t number = 0;
@@ -154,9 +150,7 @@ class PointsPart final : public FitPart {
     }
     append_all(draft.points, points);
     draft.sources.push_back(
-        fmt::format("{} points of {}{}",
-                    points.size(),
-                    name,
+        fmt::format("{} points of {}{}", points.size(), name,
                     rejected == 0 ? "" : fmt::format(" ({} left out)", rejected)));
     if (lattice_) {
       std::get<ModelSurface>(draft.map.surface).lattice = lattice_->residual;
@@ -240,19 +234,13 @@ class PointsPart final : public FitPart {
     }
   }
 
-  static void note_rejected(const MapPoint& point,
-                            std::size_t number,
-                            const std::string& name,
+  static void note_rejected(const MapPoint& point, std::size_t number, const std::string& name,
                             std::vector<std::string>& notes) {
     notes.push_back(
         fmt::format("{} {} at ({:.0f}, {:.0f}) is off by {:.1f} mm, {:.0f} times the scatter of "
                     "the readings, and was left out. Measure it again.",
-                    name.empty() ? "Point" : name + ": point",
-                    number,
-                    point.mark.x_mm,
-                    point.mark.y_mm,
-                    point.left_out_mm.norm(),
-                    point.distance_sigmas));
+                    name.empty() ? "Point" : name + ": point", number, point.mark.x_mm,
+                    point.mark.y_mm, point.left_out_mm.norm(), point.distance_sigmas));
   }
 
   MeasuredGrid grid_;  ///< corrected

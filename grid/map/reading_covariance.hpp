@@ -86,10 +86,8 @@ class FactoredCovariance {
       rows += white.rows();
     }
     if (rows != covariance.rows() || rows != covariance.shared.rows()) {
-      throw precondition("readings of {} rows in units, {} of shared errors, {} of the map",
-                         rows,
-                         covariance.shared.rows(),
-                         covariance.rows());
+      throw precondition("readings of {} rows in units, {} of shared errors, {} of the map", rows,
+                         covariance.shared.rows(), covariance.rows());
     }
     white_.resize(rows, rows);
     white_.setFromTriplets(entries.begin(), entries.end());
@@ -155,8 +153,7 @@ class FactoredCovariance {
   static Eigen::MatrixXd whitening_of_unit(const Eigen::MatrixXd& own) {
     const linear::Cholesky factor(own);
     if (own.size() == 0 || !factor.is_positive_definite()) {
-      throw precondition("{} readings of one unit whose least variance is {:g} mm^2",
-                         own.rows(),
+      throw precondition("{} readings of one unit whose least variance is {:g} mm^2", own.rows(),
                          own.size() > 0 ? own.diagonal().minCoeff() : 0.0);
     }
     return factor.half_solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));

@@ -9,11 +9,11 @@
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
-#include "model/reading_model.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -62,17 +62,15 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
       {&S::motor_offset_y_mm, motor_mm / std::sqrt(2.0), 0.1},
   };
   if (std::holds_alternative<model::Ring>(machine.attachment)) {
-    all.insert(all.end(),
-               {{&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
-                {&S::chain_sag_correction, kSagSigma, 0.1},
-                {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
-                {&S::right_chain_tolerance_percent, pitch_percent, 1e-3}});
+    all.insert(all.end(), {{&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
+                           {&S::chain_sag_correction, kSagSigma, 0.1},
+                           {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
+                           {&S::right_chain_tolerance_percent, pitch_percent, 1e-3}});
   } else {
     // The firmware's quadrilateral has neither sag nor tolerances.
-    all.insert(all.end(),
-               {{&S::sled_width_mm, kBracketSigmaMm, 0.1},
-                {&S::sled_height_mm, kBracketSigmaMm, 0.1},
-                {&S::sled_cg_mm, kBalanceSigmaMm, 0.1}});
+    all.insert(all.end(), {{&S::sled_width_mm, kBracketSigmaMm, 0.1},
+                           {&S::sled_height_mm, kBracketSigmaMm, 0.1},
+                           {&S::sled_cg_mm, kBalanceSigmaMm, 0.1}});
   }
   if (is_holey(machine)) {
     const double tilt_deg = std::sqrt(2.0) * motor_mm / spacing_mm * 180.0 / std::numbers::pi;
@@ -98,8 +96,7 @@ std::optional<Eigen::VectorXd> errors_with(const Machine& machine,
 }
 
 /// One step of Gauss and Newton from `now`; `weight` multiplies squared errors relative to the priors.
-std::optional<ControllerSettings> improved(const Machine& machine,
-                                           const ControllerSettings& now,
+std::optional<ControllerSettings> improved(const Machine& machine, const ControllerSettings& now,
                                            const std::vector<FreeSetting>& free,
                                            const std::vector<MeasuredPlace>& places,
                                            double weight) {
@@ -135,8 +132,7 @@ std::optional<ControllerSettings> improved(const Machine& machine,
 }
 
 /// To the digits that are typed.
-void round_to_type(const std::vector<FreeSetting>& free,
-                   const ControllerSettings& in_force,
+void round_to_type(const std::vector<FreeSetting>& free, const ControllerSettings& in_force,
                    ControllerSettings& settings) {
   for (const FreeSetting& setting : free) {
     const auto rounded = [&](double value) {
@@ -302,8 +298,8 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(
   return settings_for(truth);
 }
 
-tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Machine& machine,
-                                                               const std::vector<model::BedPoint>& hull) {
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(
+    const Machine& machine, const std::vector<model::BedPoint>& hull) {
   Truth truth;
   truth.machine = machine;
   truth.places = [&hull](const Machine& one) {

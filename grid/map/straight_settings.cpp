@@ -6,8 +6,8 @@
 
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
-#include "interp/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -21,11 +21,11 @@ constexpr Eigen::Index kX = 0, kY = 1, kCount = 2, kOfChain = 3;
 /// (1) less the map, both chains, and its derivatives by both chains' unknowns.
 struct Misfit {
   Eigen::Vector2d residual_mm;
-  Eigen::Matrix<double, 2, 2 * kOfChain> by_unknown = Eigen::Matrix<double, 2, 2 * kOfChain>::Zero();
+  Eigen::Matrix<double, 2, 2 * kOfChain> by_unknown =
+      Eigen::Matrix<double, 2, 2 * kOfChain>::Zero();
 };
 
-Misfit misfit_at(const MeasuredPlace& place,
-                 model::ChainLengths at_origin,
+Misfit misfit_at(const MeasuredPlace& place, model::ChainLengths at_origin,
                  const Eigen::Vector<double, 2 * kOfChain>& unknowns) {
   Misfit misfit;
   for (const Side side : model::kSides) {
@@ -34,10 +34,8 @@ Misfit misfit_at(const MeasuredPlace& place,
     const double there = std::hypot(place.commanded.x_mm - x, place.commanded.y_mm - y);
     const double origin = std::hypot(x, y);
     misfit.residual_mm[row] = at_origin[side] + count * (there - origin) - place.lengths[side];
-    misfit.by_unknown(row, from + kX) =
-        count * ((x - place.commanded.x_mm) / there - x / origin);
-    misfit.by_unknown(row, from + kY) =
-        count * ((y - place.commanded.y_mm) / there - y / origin);
+    misfit.by_unknown(row, from + kX) = count * ((x - place.commanded.x_mm) / there - x / origin);
+    misfit.by_unknown(row, from + kY) = count * ((y - place.commanded.y_mm) / there - y / origin);
     misfit.by_unknown(row, from + kCount) = there - origin;
   }
   return misfit;
@@ -53,8 +51,7 @@ Eigen::MatrixXd all_by_free(Anchors anchors) {
   return all;
 }
 
-Eigen::VectorXd errors_with(const std::vector<MeasuredPlace>& places,
-                            model::ChainLengths at_origin,
+Eigen::VectorXd errors_with(const std::vector<MeasuredPlace>& places, model::ChainLengths at_origin,
                             const Eigen::Vector<double, 2 * kOfChain>& unknowns,
                             Eigen::MatrixXd* by_unknown) {
   Eigen::VectorXd errors(2 * std::ssize(places));

@@ -38,8 +38,7 @@ struct DisplacementParts {
 
 /// (1) between all of two lists.
 Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                                    const std::vector<model::MarkPoint>& to,
-                                    double reach_mm);
+                                    const std::vector<model::MarkPoint>& to, double reach_mm);
 
 /// Immutable, thread safe.
 class ToolDisplacement {
@@ -48,8 +47,8 @@ class ToolDisplacement {
   explicit ToolDisplacement(DisplacementParts parts) : parts_(std::move(parts)) {
     const auto count = std::ssize(parts_.places);
     if (parts_.at_mm.size() != 2 * count || count == 0 || !(parts_.reach_mm > 0.0)) {
-      throw precondition(
-          "{} displacements of {} places over {} mm", parts_.at_mm.size(), count, parts_.reach_mm);
+      throw precondition("{} displacements of {} places over {} mm", parts_.at_mm.size(), count,
+                         parts_.reach_mm);
     }
     // Keeps K positive definite for two holes at one place; a ten-thousandth of the size is below any
     // tape.

@@ -17,26 +17,23 @@ constexpr Eigen::Index kBlockUnitRows = 2;
 std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) {
   stable_sort(places, [](const auto& a, const auto& b) {
     if (a.visit.order != b.visit.order) return a.visit.order < b.visit.order;
-    return std::lexicographical_compare(
-        a.lengths_mm.begin(), a.lengths_mm.end(), b.lengths_mm.begin(), b.lengths_mm.end());
+    return std::lexicographical_compare(a.lengths_mm.begin(), a.lengths_mm.end(),
+                                        b.lengths_mm.begin(), b.lengths_mm.end());
   });
   return places;
 }
 
 }  // namespace
 
-BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places,
-                                       bool ordered,
-                                       BeltNoise noise,
-                                       double noise_dof,
+BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places, bool ordered,
+                                       BeltNoise noise, double noise_dof,
                                        std::vector<TapedDistance> distances)
     : Observation(ordered, noise_dof),
       readings_(sorted_readings(std::move(places))),
       distances_(std::move(distances)),
       noise_(noise) {
   if (!(noise_.length_mm > 0.0 && noise_.position_mm >= 0.0)) {
-    throw precondition("lengths with a sigma of {} mm at positions with {} mm",
-                       noise_.length_mm,
+    throw precondition("lengths with a sigma of {} mm at positions with {} mm", noise_.length_mm,
                        noise_.position_mm);
   }
   for (const LengthsAtPlace& own : readings_) {
@@ -124,8 +121,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
   const std::size_t place = block.places.empty() ? readings_.size() : block.places.front();
   const bool is_known = !block.places.empty() && readings_[place].known.has_value();
   for (Eigen::Index row = 0; row < rows; row += most) {
-    units_.push_back({std::ssize(measured),
-                      std::min(most, rows - row),
+    units_.push_back({std::ssize(measured), std::min(most, rows - row),
                       place < readings_.size() ? readings_[place].index : block.distances.front()});
     place_of_unit_.push_back(place);
     if (is_known) {

@@ -88,11 +88,8 @@ class BeltLengthReadings final : public Observation {
   /// Sorts the places: by visit where the order is known, else by lengths. Distances name places by
   /// LengthsAtPlace::index. \throws std::invalid_argument for a sigma that is not positive, and for a
   /// distance to a place that is known or has a position to linearise about.
-  BeltLengthReadings(std::vector<LengthsAtPlace> places,
-                     bool ordered,
-                     BeltNoise noise,
-                     double noise_dof,
-                     std::vector<TapedDistance> distances = {});
+  BeltLengthReadings(std::vector<LengthsAtPlace> places, bool ordered, BeltNoise noise,
+                     double noise_dof, std::vector<TapedDistance> distances = {});
 
   /// Places that are found together (indices into places()) and the distances that join them; a
   /// single place has no distances.
@@ -128,8 +125,7 @@ class BeltLengthReadings final : public Observation {
     Eigen::MatrixXd covariance;
     Eigen::MatrixXd by_reading;
   };
-  [[nodiscard]] tl::expected<BlockRows, Unreachable> rows_of(const View& view,
-                                                             const Block& block,
+  [[nodiscard]] tl::expected<BlockRows, Unreachable> rows_of(const View& view, const Block& block,
                                                              bool with_parameters) const;
 
   /// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
@@ -137,13 +133,10 @@ class BeltLengthReadings final : public Observation {
 
   void join_places();
   void number_rows(const Block& block, std::vector<double>& measured);
-  [[nodiscard]] tl::expected<void, Unreachable> find_positions(const View& view,
-                                                               const Block& block,
+  [[nodiscard]] tl::expected<void, Unreachable> find_positions(const View& view, const Block& block,
                                                                BlockLine& line) const;
   [[nodiscard]] tl::expected<BlockLine, Unreachable> line_at(
-      const View& view,
-      const Block& block,
-      std::vector<model::ToolPosition> positions,
+      const View& view, const Block& block, std::vector<model::ToolPosition> positions,
       bool with_parameters) const;
 
   std::vector<LengthsAtPlace> readings_;

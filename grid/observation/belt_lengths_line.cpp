@@ -24,9 +24,7 @@ std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
 }  // namespace
 
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
-    const View& view,
-    const Block& block,
-    std::vector<model::ToolPosition> positions,
+    const View& view, const Block& block, std::vector<model::ToolPosition> positions,
     bool with_parameters) const {
   const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
                                       : model::Derivatives::by_position;
@@ -34,10 +32,8 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
   const auto places = std::ssize(block.places);
   const Eigen::Index rows = lengths * places + std::ssize(block.distances);
   const Eigen::Index parameters = with_parameters ? view.mechanism->values().size() : 0;
-  BlockLine line{std::move(positions),
-                 Eigen::VectorXd(rows),
-                 Eigen::MatrixXd::Zero(rows, 2 * places),
-                 Eigen::MatrixXd::Zero(rows, parameters),
+  BlockLine line{std::move(positions), Eigen::VectorXd(rows),
+                 Eigen::MatrixXd::Zero(rows, 2 * places), Eigen::MatrixXd::Zero(rows, parameters),
                  Eigen::VectorXd(rows)};
   for (Eigen::Index p = 0; p < places; ++p) {
     const std::size_t place = block.places[as_size(p)];
@@ -119,9 +115,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
     const std::vector<bool> deciding = deciding_lengths(own);
     auto position = view.mechanism->locate(own.lengths_mm, own.visit);
     if (!position || !deciding.empty()) {
-      position = model::locate_by_newton(*view.mechanism,
-                                         own.lengths_mm,
-                                         own.visit,
+      position = model::locate_by_newton(*view.mechanism, own.lengths_mm, own.visit,
                                          position ? *position : view.mechanism->extent().centre(),
                                          deciding);
     }
@@ -220,10 +214,8 @@ BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& 
       Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
   const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
   const double variance = noise_.length_mm * noise_.length_mm;
-  return {-checks * line.residual_mm,
-          checks * line.by_parameter,
-          variance * Eigen::Matrix2d::Identity(),
-          checks};
+  return {-checks * line.residual_mm, checks * line.by_parameter,
+          variance * Eigen::Matrix2d::Identity(), checks};
 }
 
 }  // namespace chaintrue::grid::observation

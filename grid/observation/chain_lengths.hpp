@@ -31,10 +31,7 @@ Eigen::Matrix2d covariance_of(const PointNoise& noise, const Eigen::Matrix2d& by
 class ChainLengthReadings final : public Observation {
  public:
   /// Sorts the places: by visit where the order is known, else by mark and lengths.
-  ChainLengthReadings(std::vector<Place> places,
-                      bool ordered,
-                      PointNoise noise,
-                      double noise_dof,
+  ChainLengthReadings(std::vector<Place> places, bool ordered, PointNoise noise, double noise_dof,
                       std::optional<SheetPrior> sheet)
       : Observation(ordered, noise_dof), noise_(noise) {
     sheet_ = sheet;
@@ -45,10 +42,8 @@ class ChainLengthReadings final : public Observation {
     take(std::move(places));
   }
   /// As above, in the order of `places`.
-  static ChainLengthReadings in_given_order(std::vector<Place> places,
-                                            bool ordered,
-                                            PointNoise noise,
-                                            double noise_dof,
+  static ChainLengthReadings in_given_order(std::vector<Place> places, bool ordered,
+                                            PointNoise noise, double noise_dof,
                                             std::optional<SheetPrior> sheet) {
     ChainLengthReadings readings({}, ordered, noise, noise_dof, sheet);
     readings.take(std::move(places));
@@ -89,8 +84,8 @@ class ChainLengthReadings final : public Observation {
       const model::MarkPoint place = frame.place(places_[i].mark);
       const auto reading = view.chains().at(view.sheet.to_bed(place));
       if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
-      ChainPlaceState state{
-          *reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
+      ChainPlaceState state{*reading, places_[i].mark,
+                            reading->position_jacobian * view.sheet.rotation()};
       model::ChainLengths lengths = reading->lengths;
       if (view.correction != nullptr) {
         const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
@@ -113,8 +108,8 @@ class ChainLengthReadings final : public Observation {
 
   std::string name_of(std::size_t unit) const override {
     const Place& place = places_.at(unit);
-    return fmt::format(
-        "point {} at ({:.1f}, {:.1f}) mm", place.name, place.mark.x_mm, place.mark.y_mm);
+    return fmt::format("point {} at ({:.1f}, {:.1f}) mm", place.name, place.mark.x_mm,
+                       place.mark.y_mm);
   }
 
   const PointNoise& noise() const { return noise_; }

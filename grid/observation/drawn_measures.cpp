@@ -5,10 +5,8 @@ namespace chaintrue::grid::observation {
 
 const Kind drawn_measures{"drawn_measures", "measure", "measures", "point", false};
 
-MeasureRow measure_row(DrawnMeasure::Kind kind,
-                       const Eigen::Vector2d& from,
-                       const Eigen::Vector2d& to,
-                       const Eigen::Vector2d& middle) {
+MeasureRow measure_row(DrawnMeasure::Kind kind, const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& to, const Eigen::Vector2d& middle) {
   const Eigen::Vector2d way = to - from;
   const double length = way.norm();
   const Eigen::Vector2d along = way / length;

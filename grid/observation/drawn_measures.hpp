@@ -57,25 +57,22 @@ struct MeasureRow {
   double value_mm = 0.0;
   Eigen::RowVector2d by_from, by_to, by_middle;
 };
-MeasureRow measure_row(DrawnMeasure::Kind kind,
-                       const Eigen::Vector2d& from,
-                       const Eigen::Vector2d& to,
-                       const Eigen::Vector2d& middle);
+MeasureRow measure_row(DrawnMeasure::Kind kind, const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& to, const Eigen::Vector2d& middle);
 
 class DrawnMeasures final : public Observation {
  public:
   /// Sorts the measures by their points. `noise_dof` are the degrees of freedom of their sigmas.
   /// \throws std::invalid_argument for a sigma that is not positive or a missing point.
-  DrawnMeasures(std::vector<DrawnPoint> points,
-                std::vector<DrawnMeasure> measures,
+  DrawnMeasures(std::vector<DrawnPoint> points, std::vector<DrawnMeasure> measures,
                 double noise_dof)
       : Observation(false, noise_dof), points_(std::move(points)) {
     for (const DrawnMeasure& own : measures) {
       if (!(own.sigma_mm > 0.0))
         throw precondition("a measure with sigma {} mm; it must be positive", own.sigma_mm);
       if (std::max({own.from, own.to, own.middle}) >= points_.size())
-        throw precondition(
-            "a measure from point {} to {} of {} points", own.from, own.to, points_.size());
+        throw precondition("a measure from point {} to {} of {} points", own.from, own.to,
+                           points_.size());
     }
     const auto key = [&](std::size_t i) {
       const DrawnMeasure& m = measures[i];
@@ -125,10 +122,8 @@ class DrawnMeasures final : public Observation {
   /// "the length A-B", "the bow of A-B".
   std::string name_of(std::size_t unit) const override {
     const DrawnMeasure& m = measures_.at(unit);
-    return fmt::format("the {} {}-{}",
-                       m.kind == DrawnMeasure::Kind::length ? "length" : "bow of",
-                       points_[m.from].name,
-                       points_[m.to].name);
+    return fmt::format("the {} {}-{}", m.kind == DrawnMeasure::Kind::length ? "length" : "bow of",
+                       points_[m.from].name, points_[m.to].name);
   }
 
   const std::vector<DrawnPoint>& points() const { return points_; }

@@ -47,9 +47,7 @@ tl::expected<std::vector<LengthPoint>, std::string> length_points(const Measured
 }
 
 observation::ChainLengthReadings chain_length_readings(
-    const std::vector<LengthPoint>& points,
-    observation::PointNoise noise,
-    double noise_dof,
+    const std::vector<LengthPoint>& points, observation::PointNoise noise, double noise_dof,
     const std::optional<SheetUncertainty>& sheet) {
   std::vector<observation::Place> places;
   for (const LengthPoint& point : points) {
@@ -57,8 +55,8 @@ observation::ChainLengthReadings chain_length_readings(
   }
   std::optional<observation::SheetPrior> prior;
   if (sheet) prior = observation::SheetPrior{sheet->shift_mm, 1e-3 * sheet->rotation_mrad};
-  return observation::ChainLengthReadings::in_given_order(
-      std::move(places), false, noise, noise_dof, prior);
+  return observation::ChainLengthReadings::in_given_order(std::move(places), false, noise,
+                                                          noise_dof, prior);
 }
 
 std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points) {
@@ -66,8 +64,7 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near = [&](const std::vector<std::size_t>& group) {
       const model::MarkPoint first = points[group.front()].mark;
-      return distance_mm(first, points[i].mark) <=
-             kRepeatDistanceMm;
+      return distance_mm(first, points[i].mark) <= kRepeatDistanceMm;
     };
     auto* group = find_where(groups, near);
     if (group == nullptr) {

@@ -31,9 +31,7 @@ struct LengthPoint {
 
 /// Points as an observation, in their order.
 observation::ChainLengthReadings chain_length_readings(
-    const std::vector<LengthPoint>& points,
-    observation::PointNoise noise,
-    double noise_dof,
+    const std::vector<LengthPoint>& points, observation::PointNoise noise, double noise_dof,
     const std::optional<SheetUncertainty>& sheet);
 
 /// Points within this distance of each other are repeats of one place.

@@ -29,9 +29,8 @@ bool same(const HoleDistance& a, const HoleDistance& b) {
 
 template <class Reading>
 bool all_same(const std::vector<Reading>& a, const std::vector<Reading>& b) {
-  return !a.empty() && std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return same(x, y);
-  });
+  return !a.empty() && std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                                  [](const auto& x, const auto& y) { return same(x, y); });
 }
 
 }  // namespace
@@ -47,10 +46,8 @@ bool same_readings(const MeasuredFile& one, const MeasuredFile& other) {
 std::string difference_of_settings(const model::Machine& first, const model::Machine& other) {
   for (const model::Setting setting : model::kMachineSettings) {
     if (model::stated_value(first, setting) == model::stated_value(other, setting)) continue;
-    return fmt::format("{} is {} in this file and {} in the first",
-                       model::name(setting),
-                       model::stated_value(other, setting),
-                       model::stated_value(first, setting));
+    return fmt::format("{} is {} in this file and {} in the first", model::name(setting),
+                       model::stated_value(other, setting), model::stated_value(first, setting));
   }
   return {};
 }

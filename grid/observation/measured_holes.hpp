@@ -26,8 +26,8 @@
 namespace chaintrue::grid {
 
 enum class SheetEdge { left, right, top, bottom };
-inline constexpr std::array kSheetEdges = {
-    SheetEdge::left, SheetEdge::right, SheetEdge::top, SheetEdge::bottom};
+inline constexpr std::array kSheetEdges = {SheetEdge::left, SheetEdge::right, SheetEdge::top,
+                                           SheetEdge::bottom};
 /// The word in files: left, right, top, bottom.
 std::string_view name(SheetEdge edge);
 

@@ -40,8 +40,7 @@ Eigen::MatrixXd marginal_covariance(const Linearisation& line,
   return covariance;
 }
 
-Eigen::Matrix2Xd lengths_by_setting(const View& view,
-                                    const model::PointReading& reading,
+Eigen::Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
                                     model::MarkPoint place,
                                     const std::vector<model::Setting>& settings) {
   const Eigen::Matrix<double, 2, 3> by_sheet =

@@ -100,8 +100,7 @@ class LengthCorrection {
     Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
-  virtual At at(model::MarkPoint mark,
-                model::ChainLengths lengths,
+  virtual At at(model::MarkPoint mark, model::ChainLengths lengths,
                 const Eigen::Matrix2d& by_mark) const = 0;
 };
 
@@ -110,16 +109,13 @@ class LengthCorrection {
 struct View {
   explicit View(std::shared_ptr<const model::Mechanism> what_hangs)
       : mechanism(std::move(what_hangs)) {}
-  View(std::shared_ptr<const model::Mechanism> what_hangs,
-       model::SheetPlacement placement,
+  View(std::shared_ptr<const model::Mechanism> what_hangs, model::SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr)
       : mechanism(std::move(what_hangs)), sheet(placement), correction(length_correction) {}
   /// For two chains.
-  View(model::ReadingModel chains,
-       model::SheetPlacement placement,
+  View(model::ReadingModel chains, model::SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr)
-      : View(std::make_shared<const model::ReadingModel>(std::move(chains)),
-             placement,
+      : View(std::make_shared<const model::ReadingModel>(std::move(chains)), placement,
              length_correction) {}
 
   /// The two-chain model, for kinds that read only chains. \throws std::logic_error for another
@@ -290,8 +286,7 @@ Eigen::MatrixXd marginal_covariance(const Linearisation& line,
 
 /// How settings of two chains move the lengths at a place, 2 x p; `place` is the requested place on
 /// the sheet, with the machine's effects of the paper removed.
-Eigen::Matrix2Xd lengths_by_setting(const View& view,
-                                    const model::PointReading& reading,
+Eigen::Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
                                     model::MarkPoint place,
                                     const std::vector<model::Setting>& settings);
 

@@ -30,10 +30,9 @@ void take_ring_radius(Machine& machine, const ExtraReading& reading) {
 
 /// A reading replaces an elongation that was stated for the same chain.
 void take_link_pitch(Machine& machine, const ExtraReading& reading) {
-  replace_effect(machine,
-                 {"chain_pitch_error",
-                  reading.side,
-                  {{"elongation", reading.value / machine.sprocket.pitch_mm - 1.0}}});
+  replace_effect(machine, {"chain_pitch_error",
+                           reading.side,
+                           {{"elongation", reading.value / machine.sprocket.pitch_mm - 1.0}}});
 }
 
 /// A measured tape error replaces a stated one.
@@ -64,8 +63,7 @@ struct ReadingKind {
 const ReadingKind& reading_kind(ReadingOf what) {
   /// In the order of ReadingOf.
   static constexpr ReadingKind kReadingKinds[] = {
-      {"beam_rise_mm",
-       nullptr,
+      {"beam_rise_mm", nullptr,
        [](const Machine& m, const ExtraReading&) {
          return m.motors.right.y_mm - m.motors.left.y_mm;
        }},
@@ -74,27 +72,22 @@ const ReadingKind& reading_kind(ReadingOf what) {
        [](const Machine& m, const ExtraReading&) {
          return m.chain.mass_kg_per_m * (1.0 + summed_size(m, "chain_sag", ""));
        }},
-      {"link_pitch_mm",
-       take_link_pitch,
+      {"link_pitch_mm", take_link_pitch,
        [](const Machine& m, const ExtraReading& r) {
          return m.sprocket.pitch_mm * (1.0 + summed_size(m, "chain_pitch_error", r.side));
        }},
-      {"motor_spacing_mm",
-       nullptr,
+      {"motor_spacing_mm", nullptr,
        [](const Machine& m, const ExtraReading&) {
          return m.motors.right.x_mm - m.motors.left.x_mm;
        }},
-      {"ring_radius_mm",
-       take_ring_radius,
+      {"ring_radius_mm", take_ring_radius,
        [](const Machine& m, const ExtraReading&) {
          const auto* ring = std::get_if<model::Ring>(&m.attachment);
          return (ring != nullptr ? ring->radius_mm : 0.0) + summed_size(m, "ring_radius", "");
        }},
-      {"sled_mass_kg",
-       [](Machine& m, const ExtraReading& r) { m.sled.mass_kg = r.value; },
+      {"sled_mass_kg", [](Machine& m, const ExtraReading& r) { m.sled.mass_kg = r.value; },
        nullptr},
-      {"tape_error_mm_per_m",
-       take_tape_error,
+      {"tape_error_mm_per_m", take_tape_error,
        [](const Machine& m, const ExtraReading& r) {
          return 1000.0 * summed_size(m, "tape_scale", r.side);
        }},
@@ -127,7 +120,8 @@ std::string_view name(ReadingOf what) { return reading_kind(what).name; }
 
 Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings) {
   for (const ExtraReading& reading : combined(readings)) {
-    if (reading_kind(reading.what).take != nullptr) reading_kind(reading.what).take(machine, reading);
+    if (reading_kind(reading.what).take != nullptr)
+      reading_kind(reading.what).take(machine, reading);
   }
   return machine;
 }

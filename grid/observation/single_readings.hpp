@@ -39,8 +39,7 @@ class SingleReadings final : public Observation {
     for (std::size_t k = 0; k < readings_.size(); ++k) {
       if (!(readings_[k].sigma > 0.0)) {
         throw precondition("a reading of {} with sigma {}; it must be positive",
-                           name(readings_[k].what),
-                           readings_[k].sigma);
+                           name(readings_[k].what), readings_[k].sigma);
       }
       measured_(as_index(k)) = readings_[k].value;
       units_.push_back({as_index(k), 1, k});

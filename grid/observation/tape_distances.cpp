@@ -13,9 +13,9 @@
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/reading_model.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
@@ -165,11 +165,9 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
-      return tl::unexpected(fmt::format("the controller cannot reach hole {} at ({:.1f}, {:.1f}): {}",
-                                        hole.name,
-                                        hole.commanded.x_mm,
-                                        hole.commanded.y_mm,
-                                        lengths.error().sentence()));
+      return tl::unexpected(
+          fmt::format("the controller cannot reach hole {} at ({:.1f}, {:.1f}): {}", hole.name,
+                      hole.commanded.x_mm, hole.commanded.y_mm, lengths.error().sentence()));
     }
     result.places_.push_back(
         {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
@@ -187,7 +185,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
 }
 
 tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& set,
-                                                                    NumberedFrom first) {
+                                                           NumberedFrom first) {
   const Sorted sorted = sorted_set(set);
   auto result = in_given_order(sorted.set);
   if (!result) return result;

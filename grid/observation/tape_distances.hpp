@@ -170,8 +170,7 @@ class TapeDistances final : public Observation {
         reading = view.chains().find(own, start);
       }
       if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
-      ChainPlaceState state{*reading,
-                            view.sheet.to_mark(reading->pose.position),
+      ChainPlaceState state{*reading, view.sheet.to_mark(reading->pose.position),
                             reading->position_jacobian * view.sheet.rotation()};
       if (view.correction != nullptr) {
         const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);

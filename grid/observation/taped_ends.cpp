@@ -12,8 +12,7 @@ namespace {
 
 using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
-MaybePlaced placed(const model::Mechanism& mechanism,
-                   const TapeEnd& end,
+MaybePlaced placed(const model::Mechanism& mechanism, const TapeEnd& end,
                    const model::ToolPosition& place) {
   const Eigen::Index parameters = mechanism.values().size();
   if (const auto* hole = std::get_if<AtHole>(&end)) return placed_hole(mechanism, *hole);
@@ -28,8 +27,8 @@ MaybePlaced placed(const model::Mechanism& mechanism,
 
 tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechanism& mechanism,
                                                              const AtHole& hole) {
-  constexpr model::MechanismReason kNoHole{
-      "no_hole", "the lengths that were paid out for a hole do not meet"};
+  constexpr model::MechanismReason kNoHole{"no_hole",
+                                           "the lengths that were paid out for a hole do not meet"};
   const auto at =
       model::locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
   if (!at) return tl::unexpected(at.error());
@@ -55,8 +54,7 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechan
 }
 
 tl::expected<DistanceLine, model::MechanismFailure> distance_line(
-    const model::Mechanism& mechanism,
-    const TapedDistance& distance,
+    const model::Mechanism& mechanism, const TapedDistance& distance,
     const std::array<model::ToolPosition, 2>& places) {
   const auto from = placed(mechanism, distance.from, places[0]);
   if (!from) return tl::unexpected(from.error());

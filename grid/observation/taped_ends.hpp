@@ -66,8 +66,7 @@ struct PlacedEnd {
 
 /// `places` are the positions of its ends; entries for ends that are not places are ignored.
 [[nodiscard]] tl::expected<DistanceLine, model::MechanismFailure> distance_line(
-    const model::Mechanism& mechanism,
-    const TapedDistance& distance,
+    const model::Mechanism& mechanism, const TapedDistance& distance,
     const std::array<model::ToolPosition, 2>& places);
 
 }  // namespace chaintrue::grid::observation

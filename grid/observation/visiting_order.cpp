@@ -119,11 +119,9 @@ tl::expected<std::vector<int>, std::string> visit_numbers(const std::vector<Meas
 }
 
 std::string in_words(const VisitingOrder& order) {
-  return fmt::format("{}{}, from the {} {}",
-                     order.rows ? "row by row" : "column by column",
+  return fmt::format("{}{}, from the {} {}", order.rows ? "row by row" : "column by column",
                      order.serpentine ? ", in alternating directions" : ", all in one direction",
-                     order.from_below ? "bottom" : "top",
-                     order.from_right ? "right" : "left");
+                     order.from_below ? "bottom" : "top", order.from_right ? "right" : "left");
 }
 
 }  // namespace chaintrue::grid

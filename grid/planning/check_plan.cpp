@@ -109,10 +109,7 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
       2.0 * request.margin_mm < std::min(machine->bed.width_mm, machine->bed.height_mm);
   if (sound && fits) return;
   throw precondition("a check of {} points, {} mm from the edges, with noise of {} and {} mm",
-                     request.points,
-                     request.margin_mm,
-                     request.length_mm,
-                     request.position_mm);
+                     request.points, request.margin_mm, request.length_mm, request.position_mm);
 }
 
 /// Readings equal to the map's prediction.
@@ -124,9 +121,8 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
   for (const MarkPoint& mark : marks) {
     const auto answer = map.query(mark);
     if (!answer) {
-      return failed(
-          PlanReason::unreachable,
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, answer.error().sentence()));
+      return failed(PlanReason::unreachable, fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm,
+                                                         mark.y_mm, answer.error().sentence()));
     }
     grid.points.push_back({mark, answer->lengths, {}, {}});
   }
@@ -149,8 +145,7 @@ model::PerSide<double> roots(const model::PerSide<double>& squares) {
 }  // namespace
 
 tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
-    const CompensationMap& map,
-    const std::vector<MarkPoint>& marks,
+    const CompensationMap& map, const std::vector<MarkPoint>& marks,
     const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);

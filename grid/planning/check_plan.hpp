@@ -50,8 +50,7 @@ struct CheckPlan {
 /// (1) for given points; the request's number of points and margin are ignored. Fails with a
 /// message if the map has no answer at one of them.
 [[nodiscard]] tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
-    const CompensationMap& map,
-    const std::vector<model::MarkPoint>& marks,
+    const CompensationMap& map, const std::vector<model::MarkPoint>& marks,
     const CheckPlanRequest& request);
 
 /// Fails with a message if the map has no machine, or answers at too few positions. \throws

@@ -48,10 +48,8 @@ class DistanceChooser {
   using Holes = std::vector<const PlannedPlace*>;
 
   /// `prior` is S before any measurement; `root` is L.
-  DistanceChooser(const model::Machine& machine,
-                  const HolesPlanRequest& request,
-                  Eigen::MatrixXd prior,
-                  Eigen::MatrixXd root)
+  DistanceChooser(const model::Machine& machine, const HolesPlanRequest& request,
+                  Eigen::MatrixXd prior, Eigen::MatrixXd root)
       : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
     frame_.machine = machine;
     frame_.tape.sigma_mm = request.tape_sigma_mm;

@@ -46,8 +46,7 @@ std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, Mark
   for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
     lengths.col(as_index(i)) = model.sensitivity(*reading, model::kMachineSettings[i]);
   }
-  lengths.rightCols<2>() =
-      vector_of(reading->lengths).asDiagonal();
+  lengths.rightCols<2>() = vector_of(reading->lengths).asDiagonal();
   PlannedPlace planned{place, {}};
   planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
       -model::SheetPlacement{}.sensitivity(place);
@@ -104,8 +103,7 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
 bool is_free(const Holes& holes, std::size_t moving, MarkPoint place, double apart_mm) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (i == moving) continue;
-    if (distance_mm(holes[i]->place, place) < apart_mm)
-      return false;
+    if (distance_mm(holes[i]->place, place) < apart_mm) return false;
   }
   return true;
 }
@@ -120,8 +118,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
     for (const PlannedPlace& candidate : places) {
       double way = 1e9;
       for (const PlannedPlace* hole : holes) {
-        way = std::min(way,
-                       distance_mm(hole->place, candidate.place));
+        way = std::min(way, distance_mm(hole->place, candidate.place));
       }
       if (way <= best_way + kSameWayMm) continue;
       best_way = way;
@@ -134,10 +131,8 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
 
 /// Moves single holes as long as a move is an improvement.
 DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
-                                   const std::vector<PlannedPlace>& places,
-                                   double apart_mm,
-                                   const Progress& progress,
-                                   Holes& holes) {
+                                   const std::vector<PlannedPlace>& places, double apart_mm,
+                                   const Progress& progress, Holes& holes) {
   constexpr int kSweeps = 4;
   constexpr double kWorthwhile = 1e-4;
   DistanceChooser::Choice best = chooser.greedy(holes);
@@ -165,10 +160,8 @@ DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
 }
 
 /// Holes in the order of a walk, row by row from the top left, named A, B, C, ...
-MeasuredHoles set_of(const model::Machine& machine,
-                     const HolesPlanRequest& request,
-                     const Holes& holes,
-                     const std::vector<HoleDistance>& distances) {
+MeasuredHoles set_of(const model::Machine& machine, const HolesPlanRequest& request,
+                     const Holes& holes, const std::vector<HoleDistance>& distances) {
   auto order = numbers_below(holes.size());
   sort(order, [&](std::size_t a, std::size_t b) {
     const MarkPoint p = holes[a]->place;
@@ -213,12 +206,8 @@ void check(const model::Machine& machine, const HolesPlanRequest& request) {
   throw precondition(
       "a plan of {} holes and {} distances, {} mm from the edges, with a tape of {} mm "
       "and sigmas of {} and {} mm",
-      request.holes,
-      request.distances,
-      request.margin_mm,
-      request.longest_mm,
-      request.tape_sigma_mm,
-      request.hole_sigma_mm);
+      request.holes, request.distances, request.margin_mm, request.longest_mm,
+      request.tape_sigma_mm, request.hole_sigma_mm);
 }
 
 /// Settings and scales, and the sheet's placement if it matters.

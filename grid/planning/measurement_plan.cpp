@@ -49,9 +49,7 @@ class Planner {
         return failed(PlanReason::unreachable,
                       fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
                                   "margin leaves such places out",
-                                  mark.x_mm,
-                                  mark.y_mm,
-                                  reading.error().sentence()));
+                                  mark.x_mm, mark.y_mm, reading.error().sentence()));
       }
       const model::ChainLengths disturbance =
           synthetic::unmodelled(model::identity_placement(mark));
@@ -59,8 +57,7 @@ class Planner {
           {mark,
            model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,
                                reading->lengths.right_mm + kDisturbanceMm * disturbance.right_mm},
-           std::nullopt,
-           std::nullopt});
+           std::nullopt, std::nullopt});
     }
     auto map = fit(grid);
     if (!map) return failed(PlanReason::no_map, map.error().sentence());
@@ -121,10 +118,8 @@ void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
 
 }  // namespace
 
-std::vector<double> expected_error_mm(const CompensationMap& map,
-                                      const model::Bed& bed,
-                                      int columns,
-                                      int rows) {
+std::vector<double> expected_error_mm(const CompensationMap& map, const model::Bed& bed,
+                                      int columns, int rows) {
   std::vector<double> errors;
   for (const MarkPoint& mark : raster(area_of(bed), columns, rows, RasterOf::cells)) {
     const auto answer = map.query(mark);
@@ -143,14 +138,8 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine
     throw precondition(
         "a plan of {} points on {} x {} mm, {} mm from its edges: {} to {} points on "
         "at least {} x {} mm are possible",
-        request.points,
-        bed.width_mm,
-        bed.height_mm,
-        request.margin_mm,
-        kFewestPlanned,
-        kMostPlanned,
-        kLeastPlannedSideMm,
-        kLeastPlannedSideMm);
+        request.points, bed.width_mm, bed.height_mm, request.margin_mm, kFewestPlanned,
+        kMostPlanned, kLeastPlannedSideMm, kLeastPlannedSideMm);
   }
   const interp::GridShape shape = interp::grid_shape(width, height, request.points);
   const auto x = interp::chebyshev_lobatto(-0.5 * width, 0.5 * width, shape.columns);

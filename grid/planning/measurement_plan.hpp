@@ -67,9 +67,7 @@ using PlanFailure = Failure<PlanReason>;
 
 /// One sigma of the tool over a raster of the whole bed, row by row from the bottom left, at the
 /// centres of columns x rows equal cells; negative where the map has no answer.
-std::vector<double> expected_error_mm(const CompensationMap& map,
-                                      const model::Bed& bed,
-                                      int columns,
-                                      int rows);
+std::vector<double> expected_error_mm(const CompensationMap& map, const model::Bed& bed,
+                                      int columns, int rows);
 
 }  // namespace chaintrue::grid

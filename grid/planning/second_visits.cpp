@@ -9,8 +9,8 @@ namespace chaintrue::grid {
 
 std::vector<std::size_t> with_second_visits(std::size_t marks, std::size_t second) {
   if (3 * second > marks) {
-    throw std::invalid_argument(
-        fmt::format("{} second visits of {} marks: three marks are needed for each", second, marks));
+    throw std::invalid_argument(fmt::format(
+        "{} second visits of {} marks: three marks are needed for each", second, marks));
   }
   std::vector<std::size_t> visits;
   std::size_t made = 0;  // second visits so far

@@ -38,11 +38,8 @@ Eigen::VectorXd in_file_order(const observation::DrawnMeasures& readings,
 
 std::string sentence_of(const TestDrawing& drawing, std::size_t cross, std::string_view reason) {
   const DrawnCross& own = drawing.crosses.at(cross);
-  return fmt::format("cross {} at ({:.1f}, {:.1f}) mm: {}",
-                     own.name,
-                     own.commanded.x_mm,
-                     own.commanded.y_mm,
-                     reason);
+  return fmt::format("cross {} at ({:.1f}, {:.1f}) mm: {}", own.name, own.commanded.x_mm,
+                     own.commanded.y_mm, reason);
 }
 
 tl::expected<estimation::Estimate, DrawingFailure> estimated(
@@ -82,9 +79,7 @@ std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
   std::vector<PlotterSetting> settings;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto at = as_index(k);
-    PlotterSetting own{parameters[k].name,
-                       *parameters[k].stated,
-                       estimate.mechanism->values()[at],
+    PlotterSetting own{parameters[k].name, *parameters[k].stated, estimate.mechanism->values()[at],
                        std::sqrt(std::max(estimate.covariance(at, at), 0.0))};
     own.is_off = std::abs(own.found - own.stated) > kOffSigmas * own.sigma;
     settings.push_back(own);
@@ -128,10 +123,8 @@ model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMa
 }
 
 tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
-    model::PlotterFirmware firmware,
-    const model::PlotterMachine& set,
-    const model::PlotterMechanism& found,
-    model::BedPoint command) {
+    model::PlotterFirmware firmware, const model::PlotterMachine& set,
+    const model::PlotterMechanism& found, model::BedPoint command) {
   const auto lengths = model::paid_out(firmware, set, command);
   if (!lengths) return tl::unexpected(model::mechanism_failure(lengths.error()));
   return found.locate_by_first(*lengths);
@@ -143,8 +136,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
         DrawingReason::too_few,
         fmt::format(
             "{} measures; at least {} of the 24 on the sheet are needed to check the result",
-            drawing.measures.size(),
-            kFewestMeasures));
+            drawing.measures.size(), kFewestMeasures));
   }
   auto made = drawn_measures_of(drawing);
   if (!made) {
@@ -182,9 +174,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
             "no settings explain this drawing: {} of {} measures do not fit the rest, which "
             "scatter {:.1f} times as much as a ruler. Measure the worst again, then draw the page "
             "a second time; a machine that slips draws it differently",
-            bad,
-            rejected.size(),
-            estimate->noise_factor));
+            bad, rejected.size(), estimate->noise_factor));
   }
 
   DrawingFit fit;
@@ -201,8 +191,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   }
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const auto row = as_index(i);
-    fit.measures.push_back(
-        {drawing.measures[i].value_mm, found[row], (*after)[row], rejected[i]});
+    fit.measures.push_back({drawing.measures[i].value_mm, found[row], (*after)[row], rejected[i]});
   }
   return fit;
 }

@@ -83,9 +83,7 @@ model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMa
 
 /// The pen's position on `found` for a command to a controller with `set`.
 [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
-    model::PlotterFirmware firmware,
-    const model::PlotterMachine& set,
-    const model::PlotterMechanism& found,
-    model::BedPoint command);
+    model::PlotterFirmware firmware, const model::PlotterMachine& set,
+    const model::PlotterMechanism& found, model::BedPoint command);
 
 }  // namespace chaintrue::grid

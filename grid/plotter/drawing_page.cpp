@@ -33,22 +33,16 @@ std::vector<DrawnLine> lines_of(const TestDrawing& drawing) {
 
 }  // namespace
 
-std::string drawing_gcode(const TestDrawing& drawing,
-                          const PenCommands& pen,
+std::string drawing_gcode(const TestDrawing& drawing, const PenCommands& pen,
                           double feed_mm_per_min) {
   const auto at = [&](const model::BedPoint& point) {
-    return fmt::format("X{:.3f} Y{:.3f}",
-                       point.x_mm + drawing.pins_middle.x_mm,
+    return fmt::format("X{:.3f} Y{:.3f}", point.x_mm + drawing.pins_middle.x_mm,
                        point.y_mm + drawing.pins_middle.y_mm);
   };
   std::string text = fmt::format("G21\nG90\n{}\n", pen.up);
   for (const DrawnLine& line : lines_of(drawing)) {
-    text += fmt::format("G0 {}\n{}\nG1 {} F{:.0f}\n{}\n",
-                        at(line.from),
-                        pen.down,
-                        at(line.to),
-                        feed_mm_per_min,
-                        pen.up);
+    text += fmt::format("G0 {}\n{}\nG1 {} F{:.0f}\n{}\n", at(line.from), pen.down, at(line.to),
+                        feed_mm_per_min, pen.up);
   }
   return text;
 }
@@ -59,13 +53,10 @@ std::string drawing_svg(const TestDrawing& drawing) {
   std::string text = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.3f}mm\" height=\"{1:.3f}mm\" "
       "viewBox=\"0 0 {0:.3f} {1:.3f}\">\n<path fill=\"none\" stroke=\"black\" d=\"",
-      width,
-      height);
+      width, height);
   for (const DrawnLine& line : lines_of(drawing)) {
-    text += fmt::format("M{:.3f},{:.3f} L{:.3f},{:.3f} ",
-                        line.from.x_mm - area.left_mm,
-                        area.top_mm - line.from.y_mm,
-                        line.to.x_mm - area.left_mm,
+    text += fmt::format("M{:.3f},{:.3f} L{:.3f},{:.3f} ", line.from.x_mm - area.left_mm,
+                        area.top_mm - line.from.y_mm, line.to.x_mm - area.left_mm,
                         area.top_mm - line.to.y_mm);
   }
   return text + "\"/>\n</svg>\n";

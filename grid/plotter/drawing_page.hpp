@@ -17,8 +17,7 @@ namespace chaintrue::grid {
 
 /// In the controller's coordinates (TestDrawing::pins_middle), millimetres, absolute: a cross at each
 /// point, then every line with a bow to measure, from its first cross to its last.
-std::string drawing_gcode(const TestDrawing& drawing,
-                          const PenCommands& pen,
+std::string drawing_gcode(const TestDrawing& drawing, const PenCommands& pen,
                           double feed_mm_per_min);
 
 /// For a mural, which is sent a picture: 1 unit is 1 mm, the origin is the left top corner of the

@@ -43,23 +43,23 @@ double median_share(const TestDrawing& drawing, const Eigen::VectorXd& as_set) {
 
 /// A possible slip in lengths, bows or all. `rows` is the trend's input from a drawing.
 std::vector<Transformation> drawing_transformations(
-    const TestDrawing& drawing,
-    const Eigen::VectorXd& as_set,
+    const TestDrawing& drawing, const Eigen::VectorXd& as_set,
     const std::function<TrendRows(const TestDrawing&)>& rows) {
   input_checks::Transformations<TestDrawing> list(drawing, rows);
-  const auto scale =
-      [&](ProblemKind kind, std::string sentence, auto takes, double factor) -> Transformation& {
-    return list.add(
-        kind, std::move(sentence), [takes, factor](TestDrawing& meant, std::size_t row) {
-          if (takes(meant.measures[row])) meant.measures[row].value_mm *= factor;
-        });
+  const auto scale = [&](ProblemKind kind, std::string sentence, auto takes,
+                         double factor) -> Transformation& {
+    return list.add(kind, std::move(sentence),
+                    [takes, factor](TestDrawing& meant, std::size_t row) {
+                      if (takes(meant.measures[row])) meant.measures[row].value_mm *= factor;
+                    });
   };
   const auto all = [](const DrawnMeasure&) { return true; };
   const auto lengths = [](const DrawnMeasure& m) { return m.kind == Kind::length; };
   const auto bows = [](const DrawnMeasure& m) { return m.kind == Kind::bow; };
   for (const auto& [unit, mm] : {std::pair("inches", kMmPerInch), std::pair("centimetres", 10.0)}) {
     const auto sentence = [&, unit = unit, mm = mm](const char* what) {
-      return fmt::format("{} look like {}: write millimetres ({} times {:g})", what, unit, unit, mm);
+      return fmt::format("{} look like {}: write millimetres ({} times {:g})", what, unit, unit,
+                         mm);
     };
     scale(ProblemKind::other_unit, sentence("the lengths"), lengths, mm);
     scale(ProblemKind::other_unit, sentence("the bows"), bows, mm);
@@ -68,8 +68,7 @@ std::vector<Transformation> drawing_transformations(
   scale(ProblemKind::minus_signs,
         "the signs of the bows look reversed: count them as shown on the sheet, with a minus on "
         "the other side",
-        bows,
-        -1.0);
+        bows, -1.0);
   const double share = median_share(drawing, as_set);
   if (std::abs(share - 1.0) > kFittedToSheet) {
     Transformation& page = scale(
@@ -78,8 +77,7 @@ std::vector<Transformation> drawing_transformations(
                     "was scaled when it was printed or sent to the plotter. Draw it at 100 % and "
                     "measure again",
                     share),
-        all,
-        1.0 / share);
+        all, 1.0 / share);
     page.of = Transformation::Of::all;
     page.penalty = kOfAFactor;
   }
@@ -120,17 +118,14 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
         fmt::format("{} is {:.1f} mm, and the line is {:.0f} mm long: that is a length along the "
                     "line. Hold a string from one end to the other and measure across from the "
                     "string to the line at its middle",
-                    words_of(drawing, i),
-                    own.value_mm,
-                    length)};
+                    words_of(drawing, i), own.value_mm, length)};
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
-                                              const DrawnValues& drawn,
+std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const DrawnValues& drawn,
                                               const model::Mechanism& machine) {
   if (auto slip = bow_along_its_line(drawing)) return slip;
   const auto as_set = drawn(machine);
@@ -150,16 +145,11 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
   const TrendRows written = rows(drawing);
   const auto plain = input_checks::account_of(input_checks::robust_trend(written, sigma));
   std::vector<input_checks::Candidate> candidates =
-      input_checks::searched(sigma,
-                             written,
-                             drawing_transformations(drawing, *as_set, rows),
+      input_checks::searched(sigma, written, drawing_transformations(drawing, *as_set, rows),
                              [&](std::size_t row) { return words_of(drawing, row); });
   const std::size_t tried = candidates.size();
   const auto found = input_checks::whole_finding(
-      std::move(candidates),
-      plain,
-      tried,
-      kOddDrawing,
+      std::move(candidates), plain, tried, kOddDrawing,
       fmt::format("half of the measures are more than {} off the prediction by the settings",
                   input_checks::length_in_words(plain.median_mm)));
   if (!found) return std::nullopt;
@@ -183,10 +173,7 @@ std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
           DrawingFailure::Reason::rows_exchanged,
           fmt::format("{} ({:.1f} mm) and {} ({:.1f} mm) fit if they are exchanged: each was typed "
                       "into the other's row. Check the sheet and correct them",
-                      words_of(drawing, i),
-                      a.value_mm,
-                      words_of(drawing, j),
-                      b.value_mm)};
+                      words_of(drawing, i), a.value_mm, words_of(drawing, j), b.value_mm)};
     }
   }
   return std::nullopt;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-
 namespace chaintrue::grid {
 
 using model::PlotterMachine;
@@ -44,12 +43,8 @@ FoundPlotter found_by(const DrawingFit& fit) {
     const PlotterSetting& own = fit.settings.at(static_cast<std::size_t>(parameter));
     return FoundSetting{own.found, own.sigma};
   };
-  return {at(model::kPinSpacing),
-          at(model::kPinRise),
-          at(model::kZeroLeft),
-          at(model::kZeroRight),
-          at(model::kScaleLeft),
-          at(model::kScaleRight),
+  return {at(model::kPinSpacing),         at(model::kPinRise),   at(model::kZeroLeft),
+          at(model::kZeroRight),          at(model::kScaleLeft), at(model::kScaleRight),
           correlations_of(fit.covariance)};
 }
 

@@ -29,8 +29,8 @@ Point middle_of(const std::vector<Point>& points) {
 std::vector<BedPoint> crosses_of(const SetPlotter& set) {
   std::vector<BedPoint> crosses;
   for (const DrawnCross& cross : planned_drawing(set).crosses) {
-    crosses.push_back({cross.commanded.x_mm + set.pins_middle.x_mm,
-                       cross.commanded.y_mm + set.pins_middle.y_mm});
+    crosses.push_back(
+        {cross.commanded.x_mm + set.pins_middle.x_mm, cross.commanded.y_mm + set.pins_middle.y_mm});
   }
   return crosses;
 }
@@ -58,10 +58,9 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   const std::vector<BedPoint> crosses = crosses_of(set);
   std::vector<model::ChainLengths> counted;
   for (const BedPoint& cross : crosses) {
-    const auto lengths = model::paid_out(
-        set.firmware,
-        set.machine,
-        {cross.x_mm - set.pins_middle.x_mm, cross.y_mm - set.pins_middle.y_mm});
+    const auto lengths =
+        model::paid_out(set.firmware, set.machine,
+                        {cross.x_mm - set.pins_middle.x_mm, cross.y_mm - set.pins_middle.y_mm});
     if (!lengths)
       throw std::invalid_argument(fmt::format("a cross that the controller cannot hold: {}",
                                               sentence_of(lengths.error().reason)));
@@ -84,18 +83,14 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   const model::MechanismExtent e = found->extent();
   const BedPoint by = set.pins_middle;
   return {best,
-          spread_about(found->values(),
-                       plotter.found->covariance(),
+          spread_about(found->values(), plotter.found->covariance(),
                        [&](const Eigen::VectorXd& values) {
                          auto other = found->with_values(values);
                          const auto laid = laid_on(pens_of(*other, of_fit), on_page);
                          return PlacedMechanism{std::move(other), {laid}};
                        }),
-          MeasuredArea(measured,
-                       {e.x_min_mm + by.x_mm,
-                        e.x_max_mm + by.x_mm,
-                        e.y_min_mm + by.y_mm,
-                        e.y_max_mm + by.y_mm})};
+          MeasuredArea(measured, {e.x_min_mm + by.x_mm, e.x_max_mm + by.x_mm, e.y_min_mm + by.y_mm,
+                                  e.y_max_mm + by.y_mm})};
 }
 
 }  // namespace chaintrue::grid

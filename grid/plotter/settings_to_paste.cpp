@@ -27,13 +27,11 @@ std::string steps_text(const SetPlotter& set, const PlotterMachine& found, Side 
 /// The position of the pen when the machine is switched on, in the controller's coordinates.
 void add_home(const SetPlotter& next, std::vector<std::string>& lines) {
   if (!next.home) return;
-  lines.push_back(fmt::format("G92 X{} Y{}",
-                              coordinate(next.home->x_mm + next.pins_middle.x_mm),
+  lines.push_back(fmt::format("G92 X{} Y{}", coordinate(next.home->x_mm + next.pins_middle.x_mm),
                               coordinate(next.home->y_mm + next.pins_middle.y_mm)));
 }
 
-std::vector<std::string> fluidnc_lines(const SetPlotter& set,
-                                       const PlotterMachine& found,
+std::vector<std::string> fluidnc_lines(const SetPlotter& set, const PlotterMachine& found,
                                        const SetPlotter& next) {
   const double half = 0.5 * next.machine.pin_spacing_mm, up = 0.5 * next.machine.pin_rise_mm;
   const model::BedPoint middle = set.pins_middle;
@@ -50,22 +48,18 @@ std::vector<std::string> fluidnc_lines(const SetPlotter& set,
           "    steps_per_mm: " + steps_text(set, found, Side::right)};
 }
 
-std::vector<std::string> marlin_lines(const SetPlotter& set,
-                                      const PlotterMachine& found,
+std::vector<std::string> marlin_lines(const SetPlotter& set, const PlotterMachine& found,
                                       const SetPlotter& next) {
   const model::BedPoint middle = set.pins_middle;
-  return {fmt::format("M92 X{} Y{}",
-                      steps_text(set, found, Side::left),
+  return {fmt::format("M92 X{} Y{}", steps_text(set, found, Side::left),
                       steps_text(set, found, Side::right)),
-          fmt::format("M665 L{} R{} T{}",
-                      coordinate(middle.x_mm - 0.5 * next.machine.pin_spacing_mm),
-                      coordinate(middle.x_mm + 0.5 * next.machine.pin_spacing_mm),
-                      coordinate(middle.y_mm)),
+          fmt::format(
+              "M665 L{} R{} T{}", coordinate(middle.x_mm - 0.5 * next.machine.pin_spacing_mm),
+              coordinate(middle.x_mm + 0.5 * next.machine.pin_spacing_mm), coordinate(middle.y_mm)),
           "M500"};
 }
 
-std::vector<std::string> polargraph_lines(const SetPlotter& set,
-                                          const PlotterMachine& found,
+std::vector<std::string> polargraph_lines(const SetPlotter& set, const PlotterMachine& found,
                                           const SetPlotter& next) {
   // The steps of a turn are fixed, so the turn's length changes instead.
   return {fmt::format("machine.width={:.1f}", next.machine.pin_spacing_mm),

@@ -33,43 +33,20 @@ TestDrawing planned_drawing(const SetPlotter& set) {
   TestDrawing drawing;
   static_cast<SetPlotter&>(drawing) = set;
   drawing.name = set.machine.name;
-  const model::BedPoint places[] = {{a.left_mm, a.top_mm},
-                                    {a.right_mm, a.top_mm},
-                                    {a.right_mm, a.bottom_mm},
-                                    {a.left_mm, a.bottom_mm},
-                                    {x, a.top_mm},
-                                    {a.right_mm, y},
-                                    {x, a.bottom_mm},
-                                    {a.left_mm, y},
-                                    {x, y}};
+  const model::BedPoint places[] = {
+      {a.left_mm, a.top_mm},    {a.right_mm, a.top_mm}, {a.right_mm, a.bottom_mm},
+      {a.left_mm, a.bottom_mm}, {x, a.top_mm},          {a.right_mm, y},
+      {x, a.bottom_mm},         {a.left_mm, y},         {x, y}};
   for (std::size_t i = 0; i < kCrosses.size(); ++i)
     drawing.crosses.push_back({std::string(1, kCrosses[i]), places[i]});
-  for (const std::string_view ends : {"AB",
-                                      "HF",
-                                      "DC",
-                                      "DA",
-                                      "GE",
-                                      "CB",
-                                      "AC",
-                                      "DB",
-                                      "HE",
-                                      "EF",
-                                      "GF",
-                                      "HG",
-                                      "AM",
-                                      "MB",
-                                      "DM",
-                                      "MC"}) {
+  for (const std::string_view ends : {"AB", "HF", "DC", "DA", "GE", "CB", "AC", "DB", "HE", "EF",
+                                      "GF", "HG", "AM", "MB", "DM", "MC"}) {
     drawing.measures.push_back({DrawnMeasure::Kind::length, cross_of(ends[0]), cross_of(ends[1])});
     drawing.measures.back().sigma_mm = kRulerSigmaMm;
   }
   for (const std::string_view line : {"AEB", "HMF", "DGC", "DHA", "GME", "CFB", "AMC", "DMB"}) {
-    drawing.measures.push_back({DrawnMeasure::Kind::bow,
-                                cross_of(line[0]),
-                                cross_of(line[2]),
-                                cross_of(line[1]),
-                                0.0,
-                                kRulerSigmaMm});
+    drawing.measures.push_back({DrawnMeasure::Kind::bow, cross_of(line[0]), cross_of(line[2]),
+                                cross_of(line[1]), 0.0, kRulerSigmaMm});
   }
   return drawing;
 }
@@ -91,7 +68,8 @@ std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing) {
   for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
     const auto lengths =
         model::paid_out(drawing.firmware, drawing.machine, drawing.crosses[i].commanded);
-    if (lengths && std::max(lengths->left_mm, lengths->right_mm) > *drawing.longest_belt_mm) return i;
+    if (lengths && std::max(lengths->left_mm, lengths->right_mm) > *drawing.longest_belt_mm)
+      return i;
   }
   return std::nullopt;
 }

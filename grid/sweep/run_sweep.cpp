@@ -66,9 +66,7 @@ SyntheticSpec session_spec(const SweepSpec& spec, const Levels& at, std::uint64_
 }
 
 // The machine on which the map is used.
-model::Machine used_machine(const SweepSpec& spec,
-                            const Levels& at,
-                            std::uint64_t repetition,
+model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64_t repetition,
                             SyntheticSpec session) {
   const UseLevel& use = spec.uses[at[2]];
   if (use.another_of_the_build) session.seed = seed_of(spec, kOtherMachineStream, repetition);
@@ -104,9 +102,7 @@ class ErrorSum {
   bool missed_ = false;
 };
 
-CellResult hold_against_truth(const SweepSpec& spec,
-                              const Levels& at,
-                              const CompensationMap& map,
+CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const CompensationMap& map,
                               const model::Machine& machine) {
   const MachineLevel& level = spec.machines[at[0]];
   const model::ReadingModel truth(machine, level.model);
@@ -128,8 +124,8 @@ CellResult hold_against_truth(const SweepSpec& spec,
     }
     model::ChainLengths disturbed{};
     if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
-    const Eigen::Vector2d chain = difference(answer->lengths, real->lengths) -
-                                  level.unmodelled_mm * vector_of(disturbed);
+    const Eigen::Vector2d chain =
+        difference(answer->lengths, real->lengths) - level.unmodelled_mm * vector_of(disturbed);
     errors.add(chain, real->position_jacobian.inverse() * chain);
   }
   return errors.result();

@@ -8,14 +8,8 @@
 namespace chaintrue::grid::sweep {
 
 std::array<std::size_t, kFactors> level_counts(const SweepSpec& spec) {
-  return {spec.machines.size(),
-          spec.effects.size(),
-          spec.uses.size(),
-          spec.surfaces.size(),
-          spec.spacings.size(),
-          spec.jitters_mm.size(),
-          spec.noises.size(),
-          spec.grids.size()};
+  return {spec.machines.size(), spec.effects.size(),    spec.uses.size(),   spec.surfaces.size(),
+          spec.spacings.size(), spec.jitters_mm.size(), spec.noises.size(), spec.grids.size()};
 }
 
 std::uint64_t combinations(const SweepSpec& spec) {
@@ -53,16 +47,16 @@ std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t le
     case 5:
       return fmt::format("{}", spec.jitters_mm.at(level));
     case 6:
-      return fmt::format(
-          "{}/{}", spec.noises.at(level).length_mm, spec.noises.at(level).position_mm);
+      return fmt::format("{}/{}", spec.noises.at(level).length_mm,
+                         spec.noises.at(level).position_mm);
     default:
       return fmt::format("{}x{}", spec.grids.at(level).columns, spec.grids.at(level).rows);
   }
 }
 
 std::string_view name(SurfaceLevel level) {
-  constexpr std::array<std::string_view, 4> kNames = {
-      "residual", "direct", "direct_parabolic", "direct_natural"};
+  constexpr std::array<std::string_view, 4> kNames = {"residual", "direct", "direct_parabolic",
+                                                      "direct_natural"};
   return kNames[static_cast<std::size_t>(level)];
 }
 

@@ -99,8 +99,7 @@ ToolPosition numbers_of_mark(const Mechanism& mechanism, ToolPosition place) {
 }
 
 /// (1). The first two lengths place the tool.
-std::optional<ToolPosition> drawn_at(const SetAndActual& machine,
-                                     ToolPosition command,
+std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition command,
                                      const MechanismVisit& visit) {
   const auto paid_out =
       machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
@@ -108,11 +107,10 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine,
   const Eigen::VectorXd& lengths = paid_out->lengths_mm;
   std::vector<bool> counting(as_size(lengths.size()), false);
   counting[0] = counting[1] = true;
-  const auto place =
-      lengths.size() == 2
-          ? machine.actual->locate(lengths, visit)
-          : locate_by_newton(
-                *machine.actual, lengths, visit, plus(machine.actual_origin, command), counting);
+  const auto place = lengths.size() == 2
+                         ? machine.actual->locate(lengths, visit)
+                         : locate_by_newton(*machine.actual, lengths, visit,
+                                            plus(machine.actual_origin, command), counting);
   if (!place) return std::nullopt;
   return minus(numbers_of_mark(*machine.actual, *place), machine.actual_origin);
 }
@@ -186,11 +184,8 @@ std::optional<SetAndActual> made_with(const WithSize& with_size, double size) {
   }
 }
 
-void add_picture(AtlasPicture picture,
-                 const std::vector<double>& sizes,
-                 double usual,
-                 const WithSize& with_size,
-                 Atlas& atlas) {
+void add_picture(AtlasPicture picture, const std::vector<double>& sizes, double usual,
+                 const WithSize& with_size, Atlas& atlas) {
   for (const double size : sizes) {
     const auto machine = made_with(with_size, size);
     if (!machine) continue;
@@ -217,8 +212,7 @@ std::size_t first_size(const Effect& effect) {
   return at;
 }
 
-void add_settings(const Mechanism& mechanism,
-                  std::string_view cause,
+void add_settings(const Mechanism& mechanism, std::string_view cause,
                   const std::function<std::optional<SetAndActual>(Eigen::Index, double)>& with_size,
                   Atlas& atlas) {
   const auto parameters = mechanism.parameters();
@@ -227,17 +221,13 @@ void add_settings(const Mechanism& mechanism,
     const double usual = parameters[k].prior_sigma.value_or(model::kParameterShiftSigma);
     const double most = 2.0 * usual;
     add_picture(
-        {.parameter = parameters[k].name},
-        sizes_of(0.0, usual, -most, most, false),
-        usual,
-        [&](double size) { return with_size(as_index(k), size); },
-        atlas);
+        {.parameter = parameters[k].name}, sizes_of(0.0, usual, -most, most, false), usual,
+        [&](double size) { return with_size(as_index(k), size); }, atlas);
   }
 }
 
 void add_effects(
-    const Mechanism& mechanism,
-    std::string_view cause,
+    const Mechanism& mechanism, std::string_view cause,
     const std::function<std::optional<SetAndActual>(const model::AppliedEffect&)>& with_effect,
     Atlas& atlas) {
   for (const Effect* effect : mechanism.effects()) {
@@ -251,8 +241,7 @@ void add_effects(
           {.effect = effect, .side = side, .parameter = size_of.name, .null = size_of.null},
           sizes_of(size_of.null, size_of.nominal, size_of.lower, size_of.upper, size_of.integer),
           size_of.nominal,
-          [&](double size) { return with_effect(of_size(*effect, side, at, size)); },
-          atlas);
+          [&](double size) { return with_effect(of_size(*effect, side, at, size)); }, atlas);
     }
   }
 }
@@ -292,15 +281,13 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
   Atlas atlas;
   atlas.lines = lattice_over(mechanism.extent());
   add_settings(
-      mechanism,
-      cause,
+      mechanism, cause,
       [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
         return SetAndActual{set, with_parameter(mechanism, k, more)};
       },
       atlas);
   add_effects(
-      mechanism,
-      cause,
+      mechanism, cause,
       [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
         return SetAndActual{set, mechanism.with_effects({effect})};
       },
@@ -313,16 +300,13 @@ Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
   const auto actual = model::make_belt_mechanism(machine);
   const ToolPosition origin = origin_of(machine);
   MechanismExtent area = actual->extent();
-  area = {area.x_min_mm - origin.x_mm,
-          area.x_max_mm - origin.x_mm,
-          area.y_min_mm - origin.y_mm,
+  area = {area.x_min_mm - origin.x_mm, area.x_max_mm - origin.x_mm, area.y_min_mm - origin.y_mm,
           area.y_max_mm - origin.y_mm};
   Atlas atlas;
   atlas.calibrates_first = true;
   atlas.lines = lattice_over(area);
   add_settings(
-      *actual,
-      cause,
+      *actual, cause,
       [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
         const auto as_is = model::make_belt_mechanism(
             belts::with_anchors(machine, with_parameter(*actual, k, more)->values()));
@@ -330,16 +314,12 @@ Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
       },
       atlas);
   add_effects(
-      *actual,
-      cause,
+      *actual, cause,
       [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
         const auto found = calibrated(machine, effect);
         if (!found) return std::nullopt;
-        return SetAndActual{model::make_belt_mechanism(*found),
-                            actual->with_effects({effect}),
-                            origin_of(*found),
-                            origin,
-                            kAtlasPlaces};
+        return SetAndActual{model::make_belt_mechanism(*found), actual->with_effects({effect}),
+                            origin_of(*found), origin, kAtlasPlaces};
       },
       atlas);
   return atlas;

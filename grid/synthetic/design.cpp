@@ -66,8 +66,8 @@ int band(double value, double half) {
 
 std::vector<Mark> lattice(const Design& design, double half_x, double half_y) {
   if (design.columns < 2 || design.rows < 2) {
-    throw precondition(
-        "design: {} x {} marks, at least 2 x 2 are needed", design.columns, design.rows);
+    throw precondition("design: {} x {} marks, at least 2 x 2 are needed", design.columns,
+                       design.rows);
   }
   std::vector<Mark> result;
   for (int row = 0; row < design.rows; ++row) {
@@ -84,9 +84,7 @@ std::vector<Mark> lattice(const Design& design, double half_x, double half_y) {
   return result;
 }
 
-std::vector<MarkPoint> scattered(const Design& design,
-                                 double half_x,
-                                 double half_y,
+std::vector<MarkPoint> scattered(const Design& design, double half_x, double half_y,
                                  Random& random) {
   if (design.points < 1) throw precondition("design: {} points", design.points);
   std::vector<MarkPoint> result;

@@ -16,8 +16,7 @@ constexpr int kRows = 4;
 constexpr std::array<std::array<int, 2>, 3> kGrids = {{{7, 4}, {10, 6}, {20, 10}}};
 constexpr double kSquareMm = 100.0;
 
-ShiftedSquare square_at(const Machine& machine,
-                        const model::AppliedEffect& applied,
+ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& applied,
                         BedPoint centre) {
   ShiftedSquare square;
   square.centre = centre;
@@ -44,10 +43,8 @@ ShiftedSquare square_at(const Machine& machine,
 
 }  // namespace
 
-EffectPicture picture_effect(const Machine& machine,
-                             const model::effects::Effect& effect,
-                             model::effects::EffectSide side,
-                             const std::vector<double>& values,
+EffectPicture picture_effect(const Machine& machine, const model::effects::Effect& effect,
+                             model::effects::EffectSide side, const std::vector<double>& values,
                              const StatedNoise& noise) {
   EffectPicture picture;
   picture.applied = model::effects::applied(effect, side, values);

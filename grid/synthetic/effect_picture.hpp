@@ -53,10 +53,8 @@ struct EffectPicture {
 /// `values` in the order of the effect's parameters.
 /// \throws std::invalid_argument if the effect cannot act on the machine or the machine cannot
 /// reach its own bed.
-EffectPicture picture_effect(const model::Machine& machine,
-                             const model::effects::Effect& effect,
-                             model::effects::EffectSide side,
-                             const std::vector<double>& values,
+EffectPicture picture_effect(const model::Machine& machine, const model::effects::Effect& effect,
+                             model::effects::EffectSide side, const std::vector<double>& values,
                              const StatedNoise& noise);
 
 }  // namespace chaintrue::grid::synthetic

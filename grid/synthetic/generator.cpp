@@ -192,8 +192,8 @@ void offset_setting(Machine& machine, model::SheetPlacement& sheet, const Settin
       sheet.rotation_rad += offset.offset;
       break;
     default:
-      machine = model::with_setting(
-          machine, offset.setting, model::stated_value(machine, offset.setting) + offset.offset);
+      machine = model::with_setting(machine, offset.setting,
+                                    model::stated_value(machine, offset.setting) + offset.offset);
   }
 }
 
@@ -275,10 +275,8 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   return session;
 }
 
-PlacesRead read_places(const Machine& stated,
-                       const std::vector<model::AppliedEffect>& hidden,
-                       const std::vector<Visit>& visits,
-                       model::Model model,
+PlacesRead read_places(const Machine& stated, const std::vector<model::AppliedEffect>& hidden,
+                       const std::vector<Visit>& visits, model::Model model,
                        const Progress& progress) {
   PlacesRead result;
   const Machine machine = with_effects(stated, hidden);
@@ -297,10 +295,8 @@ PlacesRead read_places(const Machine& stated,
   result.grid.machine = stated;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     result.grid.points.push_back(
-        {mark_frame.written(model::identity_placement(reached[i].position)),
-         lengths->at(i),
-         std::nullopt,
-         reached[i].order});
+        {mark_frame.written(model::identity_placement(reached[i].position)), lengths->at(i),
+         std::nullopt, reached[i].order});
   }
   return result;
 }

@@ -58,8 +58,7 @@ struct SettingOffset {
 };
 
 /// Applies an offset to the machine, or to the sheet if it is a setting of the sheet.
-void offset_setting(model::Machine& machine,
-                    model::SheetPlacement& sheet,
+void offset_setting(model::Machine& machine, model::SheetPlacement& sheet,
                     const SettingOffset& offset);
 
 struct SyntheticSpec {
@@ -140,7 +139,6 @@ struct PlacesRead {
 PlacesRead read_places(const model::Machine& stated,
                        const std::vector<model::AppliedEffect>& hidden,
                        const std::vector<model::Visit>& visits,
-                       model::Model model = model::Model::elastic,
-                       const Progress& progress = {});
+                       model::Model model = model::Model::elastic, const Progress& progress = {});
 
 }  // namespace chaintrue::grid::synthetic

@@ -28,8 +28,7 @@ model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec)
   model::Machine truth = stated;
   if (spec.draw_settings) {
     for (const model::Setting setting : model::kMachineSettings) {
-      truth = model::with_setting(std::move(truth),
-                                  setting,
+      truth = model::with_setting(std::move(truth), setting,
                                   model::stated_value(stated, setting) +
                                       model::stated_sigma(stated, setting) * random.normal());
     }
@@ -45,8 +44,7 @@ model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec)
 }
 
 tl::expected<SyntheticHoles, CutFailure> simulate_holes(
-    const MeasuredHoles& design,
-    const HolesSpec& spec,
+    const MeasuredHoles& design, const HolesSpec& spec,
     const std::optional<model::Machine>& truth) {
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
@@ -61,10 +59,8 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     if (!reading) {
       return failed(CutReason::unreachable,
                     fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
-                                design.holes[i].name,
-                                design.holes[i].commanded.x_mm,
-                                design.holes[i].commanded.y_mm,
-                                reading.error().sentence()));
+                                design.holes[i].name, design.holes[i].commanded.x_mm,
+                                design.holes[i].commanded.y_mm, reading.error().sentence()));
     }
     const model::MarkPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();

@@ -58,8 +58,7 @@ using CutFailure = Failure<CutReason>;
 /// drawn one. Fails if a hole cannot be cut. \throws std::invalid_argument for a design without a
 /// machine.
 [[nodiscard]] tl::expected<SyntheticHoles, CutFailure> simulate_holes(
-    const MeasuredHoles& design,
-    const HolesSpec& spec,
+    const MeasuredHoles& design, const HolesSpec& spec,
     const std::optional<model::Machine>& truth = std::nullopt);
 
 /// The stated machine with the hidden changes of a spec.

@@ -54,15 +54,12 @@ std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {
 
 /// All places once, numbered on. \returns the place that cannot be reached.
 std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
-                                         const model::BeltMachine& truth,
-                                         const BeltsSpec& spec,
-                                         const std::optional<BeltPull>& pull,
-                                         Random& noise,
+                                         const model::BeltMachine& truth, const BeltsSpec& spec,
+                                         const std::optional<BeltPull>& pull, Random& noise,
                                          MeasuredBelts& belts) {
   const auto effects = model::effects::resolve(model::belts::belt_effects(), spec.hidden);
   const std::vector<model::BedPoint> commands = commands_of(stated, spec);
-  const double over_least =
-      pull ? pull->value / *min_element(spec.pulls) : 1.0;
+  const double over_least = pull ? pull->value / *min_element(spec.pulls) : 1.0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const auto place = place_of(stated, truth, commands[i]);
     if (!place) return place.error().at(commands[i]);
@@ -103,8 +100,8 @@ void check(const BeltsSpec& spec) {
   if (spec.columns >= 2 && spec.rows >= 2 && spec.bad_readings >= 0 &&
       spec.bad_readings <= spec.columns * spec.rows)
     return;
-  throw std::logic_error(fmt::format(
-      "{} x {} places with {} bad readings", spec.columns, spec.rows, spec.bad_readings));
+  throw std::logic_error(fmt::format("{} x {} places with {} bad readings", spec.columns, spec.rows,
+                                     spec.bad_readings));
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ std::vector<model::ChainLengths> lengths_of(const Machine& machine,
   const auto lengths = model::readings(model::ReadingModel(machine), visits);
   if (!lengths) {
     const model::BedPoint p = visits[lengths.error().place].position;
-    throw precondition(
-        "signature: ({}, {}) mm cannot be reached: {}", p.x_mm, p.y_mm, lengths.error().sentence());
+    throw precondition("signature: ({}, {}) mm cannot be reached: {}", p.x_mm, p.y_mm,
+                       lengths.error().sentence());
   }
   return *lengths;
 }
@@ -54,8 +54,7 @@ std::vector<Eigen::Vector2d> SessionSignature::tool_shift_mm() const {
   return shift;
 }
 
-SessionSignature signature(const Machine& stated,
-                           const std::vector<AppliedEffect>& effects,
+SessionSignature signature(const Machine& stated, const std::vector<AppliedEffect>& effects,
                            const std::vector<Visit>& visits) {
   Machine true_machine = stated;
   append_all(true_machine.effects, effects);
@@ -81,13 +80,11 @@ SessionSignature signature(const Machine& stated,
   return result;
 }
 
-StrengthTable::StrengthTable(const model::Machine& stated,
-                             std::vector<model::Visit> visits,
+StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Visit> visits,
                              const StatedNoise& noise)
     : stated_(stated), visits_(std::move(visits)) {
   if (!(noise.length_mm > 0.0 && noise.position_mm >= 0.0)) {
-    throw precondition("strength: noise of {} mm in length, {} mm in position",
-                       noise.length_mm,
+    throw precondition("strength: noise of {} mm in length, {} mm in position", noise.length_mm,
                        noise.position_mm);
   }
   const auto count = std::ssize(visits_);

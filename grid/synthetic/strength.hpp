@@ -87,8 +87,7 @@ class StrengthTable {
   using EffectSide = model::effects::EffectSide;
 
   /// \throws std::invalid_argument if a visit cannot be reached or a noise is not above 0.
-  StrengthTable(const model::Machine& stated,
-                std::vector<model::Visit> visits,
+  StrengthTable(const model::Machine& stated, std::vector<model::Visit> visits,
                 const StatedNoise& noise);
 
   EffectStrength strength(const Effect& effect, EffectSide side) const;

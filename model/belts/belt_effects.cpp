@@ -19,7 +19,8 @@ constinit const Effect anchor_moved{
                    first_visit()},
     .cause = "an anchor slipped or its screw came loose while the machine measured",
     .signature =
-        "from one visit on, one belt disagrees with the others, most where it points along the slip",
+        "from one visit on, one belt disagrees with the others, most where it points along the "
+        "slip",
     .equation = "anchor + d (cos a, sin a) for n >= m",
     .source = "geometry",
     .not_modelled = "an anchor that creeps; use drift for it",
@@ -58,8 +59,8 @@ constinit const Effect anchor_height{
 constinit const Effect belt_stretch{
     .id = "belt_stretch",
     .station = Station::chain,
-    .parameters = {size("elongation", "e", "stretch of a belt at the pull of the motors", 0.002, 0.0,
-                        0.03)},
+    .parameters = {size("elongation", "e", "stretch of a belt at the pull of the motors", 0.002,
+                        0.0, 0.03)},
     .cause = "belts, anchors or arms stretch under tension, in proportion to the belt's length",
     .signature =
         "belts read short in proportion to tension and length; the frame comes out some "
@@ -94,8 +95,7 @@ constinit const Effect anchor_flex{
         "- g T, T the belt's tension over the pull of the first pass: 1 for a pulled belt, from "
         "the balance of forces for a holding one",
     .source = "a cantilever bends in proportion to its load",
-    .not_modelled =
-        "anchors that yield unequally or sideways; the sled's friction on the sheet",
+    .not_modelled = "anchors that yield unequally or sideways; the sled's friction on the sheet",
     .typical = "0.5 to 2 mm",
     .remedy_kind = RemedyKind::repair,
     .remedy = "brace the frame and the anchors; reduce the calibration current",
@@ -108,8 +108,7 @@ constinit const Effect belt_scale{
     .id = "belt_scale",
     .station = Station::chain,
     .sides = kOneBeltOrAll,
-    .parameters = {size("scale", "s", "relative excess of belt per turn", 0.002, -0.05,
-                        0.05)},
+    .parameters = {size("scale", "s", "relative excess of belt per turn", 0.002, -0.05, 0.05)},
     .cause = "one belt is worn, of a different make, or runs on a different pulley",
     .signature =
         "one belt reads short or long in proportion to its length; an error of all four changes "
@@ -120,15 +119,15 @@ constinit const Effect belt_scale{
     .typical = "0.1 to 0.3 %",
     .remedy_kind = RemedyKind::repair,
     .remedy = "inspect that belt's pulley and teeth, or replace the belt",
-    .add = [](const LengthState& belt, Values v) { return belt.length_mm / (1.0 + v[0]) - belt.length_mm; },
+    .add = [](const LengthState& belt,
+              Values v) { return belt.length_mm / (1.0 + v[0]) - belt.length_mm; },
 };
 
 constinit const Effect belt_zero{
     .id = "belt_zero",
     .station = Station::chain,
     .sides = kOneBeltOrAll,
-    .parameters = {size("offset_mm", "z", "excess of every reading", 2.0, -500.0, 500.0,
-                        3.0)},
+    .parameters = {size("offset_mm", "z", "excess of every reading", 2.0, -500.0, 500.0, 3.0)},
     .cause =
         "a belt was not fully retracted before counting; for all four, the arm or extension "
         "setting is wrong",
@@ -150,8 +149,8 @@ constinit const Effect tooth_skip{
     .id = "tooth_skip",
     .station = Station::chain,
     .sides = kOneBelt,
-    .parameters = {whole(size("teeth", "k", "teeth, positive if too much is read", 1.0,
-                              -110.0, 110.0, 3.0)),
+    .parameters = {whole(size("teeth", "k", "teeth, positive if too much is read", 1.0, -110.0,
+                              110.0, 3.0)),
                    first_visit()},
     .cause = "a belt skipped teeth of its pulley, or its encoder lost turns",
     .signature = "from one visit on, one belt is off by a whole number of teeth",
@@ -172,8 +171,7 @@ constinit const Effect drift{
     .id = "drift",
     .station = Station::chain,
     .sides = kOneBeltOrAll,
-    .parameters = {size("rate_mm_per_visit", "d", "growth of readings per visit", 0.03, -1.0,
-                        1.0)},
+    .parameters = {size("rate_mm_per_visit", "d", "growth of readings per visit", 0.03, -1.0, 1.0)},
     .cause = "a belt, an anchor or the frame crept while the machine measured",
     .signature = "the last places disagree with the first ones",
     .equation = "+ d n",
@@ -192,8 +190,7 @@ constinit const Effect zero_shift{
     .sides = kOneBelt,
     // The prior of belt_zero: a belt that is retracted again, or slips in its clamp, shifts by
     // millimetres.
-    .parameters = {size("shift_mm", "z", "excess of each later reading", 2.0, -500.0,
-                        500.0, 3.0),
+    .parameters = {size("shift_mm", "z", "excess of each later reading", 2.0, -500.0, 500.0, 3.0),
                    first_visit()},
     .cause = "the zero of a belt moved while the machine measured",
     .signature =
@@ -212,15 +209,9 @@ constinit const Effect zero_shift{
 };
 
 EffectTable belt_effects() {
-  static constexpr const Effect* kEffects[] = {&anchor_moved,
-                                               &anchor_height,
-                                               &belt_stretch,
-                                               &anchor_flex,
-                                               &belt_scale,
-                                               &belt_zero,
-                                               &tooth_skip,
-                                               &drift,
-                                               &zero_shift};
+  static constexpr const Effect* kEffects[] = {&anchor_moved, &anchor_height, &belt_stretch,
+                                               &anchor_flex,  &belt_scale,    &belt_zero,
+                                               &tooth_skip,   &drift,         &zero_shift};
   return kEffects;
 }
 

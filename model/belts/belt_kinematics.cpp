@@ -34,16 +34,16 @@ tl::expected<Printed, BeltFailure> printed(const BeltMachine& machine, Belt belt
 
 MechanismReason named(BeltReason reason) {
   constexpr std::array<MechanismReason, 3> kReasons = {{
-      {"inside_the_arm", "the tool would be closer to the anchor than the length of arm and "
-                         "extension"},
+      {"inside_the_arm",
+       "the tool would be closer to the anchor than the length of arm and "
+       "extension"},
       {"shorter_than_height", "the length is less than the anchor's height"},
       {"circles_do_not_meet", "two belts of these lengths do not meet"},
   }};
   return kReasons.at(static_cast<std::size_t>(reason));
 }
 
-tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine,
-                                                  Belt belt,
+tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine, Belt belt,
                                                   FramePoint place) {
   if (!machine.anchors_known) {
     throw std::logic_error(
@@ -83,9 +83,7 @@ tl::expected<double, BeltFailure> span_of(const BeltMachine& machine, Belt belt,
   return span_mm;
 }
 
-tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,
-                                               double first_mm,
-                                               FramePoint second,
+tl::expected<FramePoint, BeltFailure> crossing(FramePoint first, double first_mm, FramePoint second,
                                                double second_mm) {
   const double dx = second.x_mm - first.x_mm;
   const double dy = second.y_mm - first.y_mm;
@@ -99,8 +97,7 @@ tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,
                     first.y_mm + (along * dy - aside * dx) / apart};
 }
 
-tl::expected<FramePoint, BeltFailure> place_of_upper(const BeltMachine& machine,
-                                                     double tl_mm,
+tl::expected<FramePoint, BeltFailure> place_of_upper(const BeltMachine& machine, double tl_mm,
                                                      double tr_mm) {
   const auto left = span_of(machine, Belt::tl, tl_mm);
   if (!left) return tl::unexpected(left.error());

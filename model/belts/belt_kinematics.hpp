@@ -53,27 +53,22 @@ struct BeltReading {
 /// The length that the machine prints for a belt with the tool at a place. \throws std::logic_error
 /// if the anchors are not known.
 [[nodiscard]] tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine,
-                                                                Belt belt,
-                                                                FramePoint place);
+                                                                Belt belt, FramePoint place);
 /// All four, without derivatives.
 [[nodiscard]] tl::expected<PerBelt<double>, BeltFailure> lengths_at(const BeltMachine& machine,
                                                                     FramePoint place);
 
 /// m for a printed length; the anchors' positions need not be known.
-[[nodiscard]] tl::expected<double, BeltFailure> span_of(const BeltMachine& machine,
-                                                        Belt belt,
+[[nodiscard]] tl::expected<double, BeltFailure> span_of(const BeltMachine& machine, Belt belt,
                                                         double length_mm);
 
 /// The intersection of two circles about these anchors, to the right of the line from `first` to
 /// `second`.
-[[nodiscard]] tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,
-                                                             double first_mm,
-                                                             FramePoint second,
-                                                             double second_mm);
+[[nodiscard]] tl::expected<FramePoint, BeltFailure> crossing(FramePoint first, double first_mm,
+                                                             FramePoint second, double second_mm);
 
 /// The position that the machine computes: from the upper two belts.
 [[nodiscard]] tl::expected<FramePoint, BeltFailure> place_of_upper(const BeltMachine& machine,
-                                                                   double tl_mm,
-                                                                   double tr_mm);
+                                                                   double tl_mm, double tr_mm);
 
 }  // namespace chaintrue::model

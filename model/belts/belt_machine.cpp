@@ -24,8 +24,7 @@ void check_anchors(const BeltMachine& machine, RangeChecks& checks) {
   const PerBelt<Anchor>& a = machine.anchors;
   const auto zero = [&checks](const char* place, double value) {
     if (value == 0.0) return;
-    checks.add(place,
-               value,
+    checks.add(place, value,
                "0, because the bottom left anchor is the origin and the bottom right one is on the "
                "x axis");
   };
@@ -40,8 +39,7 @@ void check_anchors(const BeltMachine& machine, RangeChecks& checks) {
                "or given in inches?");
   }
   if (!(a.tl.y_mm >= kLeastFrameMm && a.tr.y_mm >= kLeastFrameMm)) {
-    checks.add("/anchors",
-               fmt::format("tl at y {} and tr at y {}", a.tl.y_mm, a.tr.y_mm),
+    checks.add("/anchors", fmt::format("tl at y {} and tr at y {}", a.tl.y_mm, a.tr.y_mm),
                "upper anchors at least 300 mm above the lower ones (y points up); were "
                "they swapped, or given in inches?");
   }
@@ -85,13 +83,8 @@ FramePoint centre_of(const BeltMachine& machine) {
   const double determinant = a.tr.x_mm * across_y - a.tr.y_mm * across_x;
   if (!machine.anchors_known || determinant == 0.0) {
     throw std::logic_error(
-        fmt::format("a frame of tl ({}, {}), tr ({}, {}), br ({}, {}) has no centre",
-                    a.tl.x_mm,
-                    a.tl.y_mm,
-                    a.tr.x_mm,
-                    a.tr.y_mm,
-                    a.br.x_mm,
-                    a.br.y_mm));
+        fmt::format("a frame of tl ({}, {}), tr ({}, {}), br ({}, {}) has no centre", a.tl.x_mm,
+                    a.tl.y_mm, a.tr.x_mm, a.tr.y_mm, a.br.x_mm, a.br.y_mm));
   }
   const double s = (a.br.x_mm * across_y - a.br.y_mm * across_x) / determinant;
   return {s * a.tr.x_mm, s * a.tr.y_mm};

@@ -65,36 +65,25 @@ std::shared_ptr<const BeltMechanism> make_belt_mechanism(const BeltMachine& mach
   return std::make_shared<const BeltMechanism>(machine, anchor_sigma_mm, scale);
 }
 
-BeltMechanism::BeltMechanism(const BeltMachine& machine,
-                             std::optional<double> anchor_sigma_mm,
+BeltMechanism::BeltMechanism(const BeltMachine& machine, std::optional<double> anchor_sigma_mm,
                              std::optional<BeltScaleKnowledge> scale)
-    : BeltMechanism(machine,
-                    stated_parameters(machine, anchor_sigma_mm, scale),
-                    stated_values(machine, kCoordinates.size() + (scale ? 1 : 0)),
-                    {}) {
+    : BeltMechanism(machine, stated_parameters(machine, anchor_sigma_mm, scale),
+                    stated_values(machine, kCoordinates.size() + (scale ? 1 : 0)), {}) {
   require_none(problems_of(machine));
 }
 
-BeltMechanism::BeltMechanism(BeltMachine machine,
-                             std::vector<MechanismParameter> parameters,
-                             Eigen::VectorXd values,
-                             std::vector<AppliedEffect> applied)
-    : MechanismBase("belts",
-                    kBeltLengths,
-                    belts::belt_effects(),
-                    std::move(parameters),
-                    std::move(values),
-                    std::move(applied)),
+BeltMechanism::BeltMechanism(BeltMachine machine, std::vector<MechanismParameter> parameters,
+                             Eigen::VectorXd values, std::vector<AppliedEffect> applied)
+    : MechanismBase("belts", kBeltLengths, belts::belt_effects(), std::move(parameters),
+                    std::move(values), std::move(applied)),
       machine_(std::move(machine)),
       acting_(effects::resolve(belts::belt_effects(), this->applied())) {}
 
 MechanismExtent BeltMechanism::extent() const {
   const PerBelt<Anchor>& a = machine_.anchors;
   const double reach = reach_mm(machine_);
-  return {std::max(a.tl.x_mm, a.bl.x_mm) + reach,
-          std::min(a.tr.x_mm, a.br.x_mm) - reach,
-          std::max(a.bl.y_mm, a.br.y_mm) + reach,
-          std::min(a.tl.y_mm, a.tr.y_mm) - reach};
+  return {std::max(a.tl.x_mm, a.bl.x_mm) + reach, std::min(a.tr.x_mm, a.br.x_mm) - reach,
+          std::max(a.bl.y_mm, a.br.y_mm) + reach, std::min(a.tl.y_mm, a.tr.y_mm) - reach};
 }
 
 std::shared_ptr<const Mechanism> BeltMechanism::rebuild(const Eigen::VectorXd& values,
@@ -199,9 +188,7 @@ std::vector<MechanismChange> BeltMechanism::possible_changes() const {
   ChangedQuantity of_all{.lengths = {}, .sigma = kBeltZeroShiftMm};
   for (const Belt belt : kBelts) {
     const auto at = static_cast<std::size_t>(belt);
-    MechanismChange zero{Change::zero,
-                         std::string(name(belt)),
-                         true,
+    MechanismChange zero{Change::zero, std::string(name(belt)), true,
                          (prior.one_zero + prior.tooth) / static_cast<double>(kBelts.size())};
     zero.quantities.push_back({.lengths = {at}, .sigma = kBeltZeroShiftMm});
     of_all.lengths.push_back(at);
@@ -209,8 +196,8 @@ std::vector<MechanismChange> BeltMechanism::possible_changes() const {
   }
   changes.push_back({Change::zero, "", true, prior.both_zeros, {of_all}});
   for (const Belt belt : {Belt::tl, Belt::tr, Belt::br}) {
-    MechanismChange moved{
-        Change::anchor, std::string(name(belt)), false, (prior.motors + prior.pitch) / 3.0};
+    MechanismChange moved{Change::anchor, std::string(name(belt)), false,
+                          (prior.motors + prior.pitch) / 3.0};
     for (const Coordinate& own : kCoordinates) {
       if (own.belt != belt) continue;
       moved.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,

@@ -40,8 +40,7 @@ class BeltMechanism final : public MechanismBase {
   MechanismExtent extent() const override;
   /// Fails with anchors_not_known, or with a failure of belt_kinematics.hpp.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
-      const ToolPosition& position,
-      const MechanismVisit& visit,
+      const ToolPosition& position, const MechanismVisit& visit,
       Derivatives wanted = Derivatives::by_position_and_parameter) const override;
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
@@ -61,10 +60,8 @@ class BeltMechanism final : public MechanismBase {
   const BeltMachine& machine() const { return machine_; }
 
  private:
-  BeltMechanism(BeltMachine machine,
-                std::vector<MechanismParameter> parameters,
-                Eigen::VectorXd values,
-                std::vector<AppliedEffect> applied);
+  BeltMechanism(BeltMachine machine, std::vector<MechanismParameter> parameters,
+                Eigen::VectorXd values, std::vector<AppliedEffect> applied);
   std::shared_ptr<const Mechanism> rebuild(const Eigen::VectorXd& values,
                                            std::vector<AppliedEffect> applied) const override;
   [[nodiscard]] tl::expected<belts::AnchorNumber, BeltFailure> print(const belts::BeltVisit& visit,
@@ -80,8 +77,7 @@ inline constexpr double kBeltZeroShiftMm = 5.0;
 inline constexpr double kAnchorShiftMm = 5.0;
 
 std::shared_ptr<const BeltMechanism> make_belt_mechanism(
-    const BeltMachine& machine,
-    std::optional<double> anchor_sigma_mm = std::nullopt,
+    const BeltMachine& machine, std::optional<double> anchor_sigma_mm = std::nullopt,
     std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
 }  // namespace chaintrue::model

@@ -18,10 +18,8 @@ constexpr double kTeethInATurn = 22.0;
 
 /// L of a belt, with d(L)/d(place).
 tl::expected<BeltReading, BeltFailure> belt_itself(
-    const BeltMachine& machine,
-    const std::vector<effects::ActingEffect>& effects,
-    const BeltVisit& visit,
-    FramePoint place) {
+    const BeltMachine& machine, const std::vector<effects::ActingEffect>& effects,
+    const BeltVisit& visit, FramePoint place) {
   BeltMachine real = machine;
   // The horizontal span is the same for both printed forms of the real belt.
   real.lengths =
@@ -36,17 +34,14 @@ tl::expected<BeltReading, BeltFailure> belt_itself(
 }
 
 bool by_tension(const std::vector<effects::ActingEffect>& effects) {
-  return std::any_of(effects.begin(), effects.end(), [](const effects::ActingEffect& own) {
-    return own.effect->by_tension;
-  });
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const effects::ActingEffect& own) { return own.effect->by_tension; });
 }
 
 /// K of a belt, with its derivatives by L and T.
 effects::Number count_of(const BeltMachine& machine,
-                         const std::vector<effects::ActingEffect>& effects,
-                         const BeltVisit& visit,
-                         double length_mm,
-                         double tension) {
+                         const std::vector<effects::ActingEffect>& effects, const BeltVisit& visit,
+                         double length_mm, double tension) {
   const effects::LengthState belt{.length_mm = effects::variable(length_mm, effects::kLength),
                                   .tension = effects::variable(tension, effects::kTension),
                                   .turn_mm = machine.belt_turn_mm,
@@ -61,8 +56,7 @@ effects::Number count_of(const BeltMachine& machine,
 }
 
 /// print(K).
-tl::expected<AnchorNumber, BeltFailure> printed(const BeltMachine& machine,
-                                                Belt belt,
+tl::expected<AnchorNumber, BeltFailure> printed(const BeltMachine& machine, Belt belt,
                                                 const AnchorNumber& count_mm) {
   if (machine.lengths == BeltLengths::belt) return count_mm;
   if (machine.lengths == BeltLengths::belt_and_arm) return count_mm + reach_mm(machine);
@@ -82,8 +76,7 @@ AnchorNumber of_anchor(const BeltReading& reading, Belt belt) {
 
 tl::expected<AnchorNumber, BeltFailure> read_belt(const BeltMachine& machine,
                                                   const std::vector<effects::ActingEffect>& effects,
-                                                  const BeltVisit& visit,
-                                                  FramePoint place) {
+                                                  const BeltVisit& visit, FramePoint place) {
   const auto belt = belt_itself(machine, effects, visit, place);
   if (!belt) return tl::unexpected(belt.error());
   const AnchorNumber length = of_anchor(*belt, visit.belt);
@@ -91,8 +84,7 @@ tl::expected<AnchorNumber, BeltFailure> read_belt(const BeltMachine& machine,
   if (by_tension(effects))
     tension = tensions_of(machine, visit.pulled, visit.pull, place)[visit.belt];
   const effects::Number count = count_of(machine, effects, visit, length.value, tension.value);
-  return printed(machine,
-                 visit.belt,
+  return printed(machine, visit.belt,
                  length.chained(count.value, count.d[effects::kLength]) +
                      tension.chained(0.0, count.d[effects::kTension]));
 }

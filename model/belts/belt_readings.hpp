@@ -47,9 +47,7 @@ AnchorNumber of_anchor(const BeltReading& reading, Belt belt);
 
 /// The printed length, with derivatives by every anchor, since tensions depend on all four.
 [[nodiscard]] tl::expected<AnchorNumber, BeltFailure> read_belt(
-    const BeltMachine& machine,
-    const std::vector<effects::ActingEffect>& effects,
-    const BeltVisit& visit,
-    FramePoint place);
+    const BeltMachine& machine, const std::vector<effects::ActingEffect>& effects,
+    const BeltVisit& visit, FramePoint place);
 
 }  // namespace chaintrue::model::belts

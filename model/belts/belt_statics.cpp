@@ -29,10 +29,8 @@ Level unit_pull(const BeltMachine& machine, Belt belt, FramePoint place) {
 
 /// lambda = G^-1 f of (2), and along one line, where G has no inverse, f over its trace without
 /// derivatives.
-Level balance_of(const BeltMachine& machine,
-                 const PerBelt<Level>& pulls,
-                 const PerBelt<bool>& pulled,
-                 double pull) {
+Level balance_of(const BeltMachine& machine, const PerBelt<Level>& pulls,
+                 const PerBelt<bool>& pulled, double pull) {
   // Share of the squared trace: holding belts within 1e-4 rad of one line.
   constexpr double kOnOneLine = 1e-8;
   Level f{0.0, machine.orientation == Orientation::upright ? kWeightOverPull : 0.0};
@@ -65,10 +63,8 @@ bool any(const PerBelt<bool>& of) { return of.tl || of.tr || of.bl || of.br; }
 
 }  // namespace
 
-PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine,
-                                  const PerBelt<bool>& pulled,
-                                  double pull,
-                                  FramePoint place) {
+PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine, const PerBelt<bool>& pulled,
+                                  double pull, FramePoint place) {
   if (!machine.anchors_known)
     throw std::logic_error("tensions of belts whose anchors are not known");
   PerBelt<AnchorNumber> tension;

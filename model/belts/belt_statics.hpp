@@ -54,9 +54,7 @@ inline Eigen::RowVector2d by_anchor(const AnchorNumber& number, Belt anchor) {
 }
 
 /// \throws std::logic_error if the anchors are not known.
-PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine,
-                                  const PerBelt<bool>& pulled,
-                                  double pull,
-                                  FramePoint place);
+PerBelt<AnchorNumber> tensions_of(const BeltMachine& machine, const PerBelt<bool>& pulled,
+                                  double pull, FramePoint place);
 
 }  // namespace chaintrue::model::belts

@@ -19,17 +19,13 @@ namespace chaintrue::model {
 
 /// Settings of the machine itself, in the order of results.
 inline constexpr std::array kMachineSettings = {
-    Setting::motor_left_x_mm,
-    Setting::motor_left_y_mm,
-    Setting::motor_right_x_mm,
-    Setting::motor_right_y_mm,
-    Setting::chain_zero_left_mm,
-    Setting::chain_zero_right_mm,
+    Setting::motor_left_x_mm,  Setting::motor_left_y_mm,    Setting::motor_right_x_mm,
+    Setting::motor_right_y_mm, Setting::chain_zero_left_mm, Setting::chain_zero_right_mm,
 };
 
 /// Settings of a sheet that was placed by hand.
-inline constexpr std::array kSheetSettings = {
-    Setting::sheet_x_mm, Setting::sheet_y_mm, Setting::sheet_rotation_rad};
+inline constexpr std::array kSheetSettings = {Setting::sheet_x_mm, Setting::sheet_y_mm,
+                                              Setting::sheet_rotation_rad};
 
 /// A setting of the sheet, not of the machine.
 constexpr bool is_of_sheet(Setting setting) { return setting >= Setting::sheet_x_mm; }

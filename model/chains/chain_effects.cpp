@@ -42,8 +42,7 @@ constexpr Effect tape_scale{
     .not_modelled = "a scale that varies along the tape, a sagging tape",
     .typical = "0.05 %, 0.5 mm on a metre",
     .remedy_kind = RemedyKind::correct_the_data,
-    .remedy =
-        "compare the tape with a second one and correct the marks; do not change the machine",
+    .remedy = "compare the tape with a second one and correct the marks; do not change the machine",
     .write =
         [](MarkPoint mark, EffectSide side, Values v) {
           const double factor = 1.0 + v[0];
@@ -55,12 +54,10 @@ constexpr Effect tape_scale{
 constexpr Effect axes_skew{
     .id = "axes_skew",
     .station = Station::paper,
-    .parameters = {mirrored(size("angle_rad", "g",
-                                 "lean of the marks' y axis, positive towards -x",
+    .parameters = {mirrored(size("angle_rad", "g", "lean of the marks' y axis, positive towards -x",
                                  0.001, -0.05, 0.05))},
     .cause = "the marks' axes are not square",
-    .signature =
-        "upper marks are off to one side, lower ones to the other, in proportion to y",
+    .signature = "upper marks are off to one side, lower ones to the other, in proportion to y",
     .equation = "x_written = x + y g",
     .source = "oblique frame, first order in g",
     .not_modelled = "bent or kinked axes",
@@ -96,10 +93,8 @@ constexpr Effect ring_radius{
 
 constexpr Effect sled_width{
     .id = "sled_width",
-    .parameters = {size("offset_mm", "w", "true distance minus the file's",
-                        5.0, -200.0, 200.0)},
-    .cause =
-        "the sled's brackets are farther apart or closer together than in the machine file",
+    .parameters = {size("offset_mm", "w", "true distance minus the file's", 5.0, -200.0, 200.0)},
+    .cause = "the sled's brackets are farther apart or closer together than in the machine file",
     .signature =
         "both chains are too short or too long by nearly the same amount, most along the top",
     .equation = "spacing = spacing_stated + w",
@@ -113,10 +108,8 @@ constexpr Effect sled_width{
 
 constexpr Effect sled_height{
     .id = "sled_height",
-    .parameters = {size("offset_mm", "h", "true height minus the file's",
-                        5.0, -200.0, 200.0)},
-    .cause =
-        "the sled's brackets are higher or lower than in the machine file",
+    .parameters = {size("offset_mm", "h", "true height minus the file's", 5.0, -200.0, 200.0)},
+    .cause = "the sled's brackets are higher or lower than in the machine file",
     .signature =
         "the whole bed is shifted up or down, slightly less in the lower corners, where the sled "
         "tilts",
@@ -131,26 +124,24 @@ constexpr Effect sled_height{
 
 constexpr Effect sled_cg{
     .id = "sled_cg",
-    .parameters = {size("offset_mm", "g",
-                        "true distance below the bit minus the file's",
-                        10.0, -500.0, 500.0)},
+    .parameters = {size("offset_mm", "g", "true distance below the bit minus the file's", 10.0,
+                        -500.0, 500.0)},
     .cause = "the sled's centre of gravity is higher or lower than in the machine file",
-    .signature =
-        "opposite errors on the left and right, none on the middle line",
+    .signature = "opposite errors on the left and right, none on the middle line",
     .equation = "cg = cg_stated + g",
     .source = "statics of a sled on two brackets",
     .not_modelled = "brackets at different heights or distances from the bit",
     .typical = "5 to 30 mm",
-    .remedy = "balance the sled on an edge, measure from there to the bit and enter the distance "
-              "(sledcg)",
+    .remedy =
+        "balance the sled on an edge, measure from there to the bit and enter the distance "
+        "(sledcg)",
     .alter = adds_to_brackets<&Brackets::cg_below_bit_mm>,
     .part = Part::brackets,
 };
 
 constexpr Effect sprocket_radius{
     .id = "sprocket_radius",
-    .parameters = {size("offset_mm", "d", "true radius minus the file's", 0.17,
-                        -3.0, 3.0)},
+    .parameters = {size("offset_mm", "d", "true radius minus the file's", 0.17, -3.0, 3.0)},
     .cause = "the chain lies on the sprockets at a different radius than in the machine file",
     .signature = "a few tenths of a millimetre in the wrap, nearly all absorbed by the chain zeros",
     .equation = "r = r_stated + d, for tangent and wrap",
@@ -167,13 +158,10 @@ constexpr Effect chain_sag{
     .id = "chain_sag",
     .parameters = {size("relative_weight", "q", "true chain mass over the file's, minus one", 0.3,
                         -0.95, 5.0)},
-    .cause =
-        "the chain is heavier or lighter than in the machine file, so it sags more or less",
-    .signature =
-        "up to millimetres in the lower corners, where one chain is long and slack",
+    .cause = "the chain is heavier or lighter than in the machine file, so it sags more or less",
+    .signature = "up to millimetres in the lower corners, where one chain is long and slack",
     .equation = "w = w_stated (1 + q) in the elastic catenary",
-    .source =
-        "statics of two chains; masses of 0.125 to 0.141 kg/m are in use",
+    .source = "statics of two chains; masses of 0.125 to 0.141 kg/m are in use",
     .not_modelled = "dirt or oil on part of a chain",
     .typical = "30 %",
     .remedy = "weigh a metre of chain and enter its mass",
@@ -182,8 +170,7 @@ constexpr Effect chain_sag{
 
 constexpr Effect chain_stretch{
     .id = "chain_stretch",
-    .parameters = {size("compliance_per_n", "k", "compliance beyond the file's", 6e-6, 0.0,
-                        1e-4)},
+    .parameters = {size("compliance_per_n", "k", "compliance beyond the file's", 6e-6, 0.0, 1e-4)},
     .cause = "the chain stretches more under tension than in the machine file",
     .signature = "the tool hangs low, most at the top centre, where tension is highest",
     .equation = "c = c_stated + k; stretched length = S + integral of c T ds",
@@ -198,11 +185,9 @@ constexpr Effect chain_stretch{
 constexpr Effect beam_flex{
     .id = "beam_flex",
     .parameters = {size("flexibility_mm_per_n", "k",
-                        "movement of a motor's axis along its chain, per newton", 0.01, 0.0,
-                        0.1)},
+                        "movement of a motor's axis along its chain, per newton", 0.01, 0.0, 0.1)},
     .cause = "the top beam or its brackets bend under the tension of the chains",
-    .signature =
-        "the tool hangs low, and the bed shrinks towards the top centre",
+    .signature = "the tool hangs low, and the bed shrinks towards the top centre",
     .equation = "motor axis = as set + k T_i (unit vector along the chain, towards the sled)",
     .source = "MaslowCNC GroundControl PR 558: motor spacing 2990 mm free, 2980 mm under load",
     .not_modelled =
@@ -215,7 +200,8 @@ constexpr Effect beam_flex{
 
 constexpr Effect side_pull{
     .id = "side_pull",
-    .parameters = {mirrored(size("force_n", "f", "force on the sled towards +x", 3.0, -10.0, 10.0))},
+    .parameters = {mirrored(
+        size("force_n", "f", "force on the sled towards +x", 3.0, -10.0, 10.0))},
     .cause = "a hose or a cord pulls the sled to one side",
     .signature =
         "one chain is slacker than its mirror image, most in the lower corner towards the pull",
@@ -235,8 +221,7 @@ constexpr Effect direction_hysteresis{
     .station = Station::chain,
     .sides = kAnyChain,
     .parameters = {size("half_width_mm", "b",
-                        "half of the difference between paying out and taking in",
-                        0.35, 0.0, 5.0)},
+                        "half of the difference between paying out and taking in", 0.35, 0.0, 5.0)},
     .cause = "friction, a sticking ring, or play in a gearbox",
     .signature = "the same place reads differently when approached from the other side",
     .equation = "+ b sign(change of that chain's length since the previous visit)",
@@ -256,13 +241,12 @@ constexpr Effect chain_pitch_error{
     .id = "chain_pitch_error",
     .station = Station::chain,
     .sides = kAnyChain,
-    .parameters = {size("elongation", "e", "true over nominal pitch, minus one",
-                        0.001, -0.05, 0.05)},
+    .parameters = {size("elongation", "e", "true over nominal pitch, minus one", 0.001, -0.05,
+                        0.05)},
     .cause = "the chain's links are worn or were never of the right length",
     .signature = "an error in proportion to the length of a chain",
     .equation = "L / (1 + e)",
-    .source =
-        "GroundControl's chain tolerances; worn roller chain is replaced at 2 to 3 %",
+    .source = "GroundControl's chain tolerances; worn roller chain is replaced at 2 to 3 %",
     .not_modelled = "uneven wear along the chain",
     .typical = "0.05 to 0.15 %: 1.5 to 4.5 mm on 3 m",
     .remedy =
@@ -278,8 +262,7 @@ constexpr Effect drift{
     .id = "drift",
     .station = Station::reading,
     .sides = kAnyChain,
-    .parameters = {size("rate_mm_per_visit", "d", "growth of readings per visit", 0.03, -1.0,
-                        1.0)},
+    .parameters = {size("rate_mm_per_visit", "d", "growth of readings per visit", 0.03, -1.0, 1.0)},
     .cause = "the machine warmed up or the chain crept while the points were measured",
     .signature =
         "the last points disagree with the first; a second visit to the first point shows it",
@@ -298,8 +281,8 @@ constexpr Effect tooth_skip{
     .id = "tooth_skip",
     .station = Station::reading,
     .sides = kOneChain,
-    .parameters = {whole(size("links", "k", "links, positive if too many are read", 1.0,
-                              -20.0, 20.0)),
+    .parameters = {whole(size("links", "k", "links, positive if too many are read", 1.0, -20.0,
+                              20.0)),
                    first_visit("first visit after the skip")},
     .cause = "the chain skipped teeth of a sprocket during the measurement",
     .signature = "from one visit on, one chain is off by a whole number of links",
@@ -319,8 +302,8 @@ constexpr Effect link_miscount{
     .id = "link_miscount",
     .station = Station::reading,
     .sides = kOneChain,
-    .parameters = {whole(size("links", "k", "links, positive if too many are read", 1.0,
-                              -20.0, 20.0)),
+    .parameters = {whole(size("links", "k", "links, positive if too many are read", 1.0, -20.0,
+                              20.0)),
                    visit("visit", "number of the visit")},
     .cause = "the links were miscounted at one visit",
     .signature = "one point is off along one chain by a whole number of links",
@@ -331,10 +314,8 @@ constexpr Effect link_miscount{
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::correct_the_data,
     .remedy = "measure that point again; its reading is corrected or left out",
-    .add =
-        [](const LengthState& chain, Values v) {
-          return Number(chain.order == v[1] ? chain.tooth_mm * v[0] : 0.0);
-        },
+    .add = [](const LengthState& chain,
+              Values v) { return Number(chain.order == v[1] ? chain.tooth_mm * v[0] : 0.0); },
     .at_one_visit = true,
 };
 
@@ -344,8 +325,7 @@ constexpr Effect zero_shift{
     .sides = kOneChain,
     // Half a link: a sprocket that turns on its shaft, or a zero set by eye, stops anywhere between
     // two teeth.
-    .parameters = {size("shift_mm", "z", "excess of each later reading", 3.0, -130.0,
-                        130.0),
+    .parameters = {size("shift_mm", "z", "excess of each later reading", 3.0, -130.0, 130.0),
                    first_visit("first visit after the shift")},
     .cause = "the zero of a chain moved during the measurement",
     .signature =

@@ -59,8 +59,7 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
         (brackets == nullptr || (brackets->spacing_mm > 0.0 && brackets->height_mm >= 0.0));
     if (!sound) {
       problems.push_back(
-          {place,
-           named.effect,
+          {place, named.effect,
            "together with the machine's values: sprocket radius, chain mass and spacing of "
            "brackets above 0, ring radius, height of brackets and compliance not below 0"});
       return;
@@ -101,8 +100,8 @@ std::vector<ActingEffect> acting_effects(const Machine& machine) {
 
 AppliedEffect applied(const Effect& effect, EffectSide side, Values values) {
   if (values.size() != effect.parameters.size()) {
-    throw std::invalid_argument(fmt::format(
-        "effect {} takes {} values, not {}", effect.id, effect.parameters.size(), values.size()));
+    throw std::invalid_argument(fmt::format("effect {} takes {} values, not {}", effect.id,
+                                            effect.parameters.size(), values.size()));
   }
   AppliedEffect result{std::string(effect.id), std::string(name(side)), {}};
   for (std::size_t i = 0; i < values.size(); ++i) {

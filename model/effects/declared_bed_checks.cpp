@@ -92,9 +92,7 @@ std::string at_words(const Trial& trial) { return trial.where.empty() ? "" : " a
 /// The first problem of one formula over all trials.
 class FormulaOnBed {
  public:
-  FormulaOnBed(const Declaration& own,
-               std::string place,
-               const Formula& formula,
+  FormulaOnBed(const Declaration& own, std::string place, const Formula& formula,
                const std::vector<Trial>& trials)
       : own_(own), place_(std::move(place)), formula_(formula), trials_(trials) {}
 
@@ -119,8 +117,7 @@ class FormulaOnBed {
   double value(const Trial& trial, const std::vector<double>& values) const {
     return formula_.evaluate(std::span<const Number>(values_of(trial, values))).value;
   }
-  [[nodiscard]] DeclarationProblem at(std::string value,
-                                      std::string expected,
+  [[nodiscard]] DeclarationProblem at(std::string value, std::string expected,
                                       std::size_t offset = 0) const {
     return {place_, std::move(value), std::move(expected), offset};
   }
@@ -137,8 +134,7 @@ class FormulaOnBed {
           shortened ? "a chain without length" : "not finite",
           fmt::format("a formula that is finite, with its slopes, over the bed of the machine "
                       "between the bounds; this one is not{} with {}",
-                      at_words(trial),
-                      words_of(own_, values)),
+                      at_words(trial), words_of(own_, values)),
           offset);
     }
     return std::nullopt;
@@ -150,10 +146,8 @@ class FormulaOnBed {
       const double left = value(trial, values);
       if (std::abs(left) <= kNothingMm) continue;
       return at(fmt::format("{:g}", left),
-                fmt::format("a formula that is 0 at null; this one is {:g}{} with {}",
-                            left,
-                            at_words(trial),
-                            words_of(own_, values)));
+                fmt::format("a formula that is 0 at null; this one is {:g}{} with {}", left,
+                            at_words(trial), words_of(own_, values)));
     }
     return std::nullopt;
   }

@@ -33,16 +33,14 @@ void check_names(const Declaration& own, Problems& problems) {
         {"/id", own.id, "a name of small letters, digits and _, such as second_harmonic"});
   } else if (find_effect(own.id) != nullptr) {
     problems.push_back(
-        {"/id",
-         own.id,
+        {"/id", own.id,
          "another name, because the catalogue has an effect with this one; to replace it, use "
          "\"instead_of\""});
   }
   if (own.instead_of.empty()) return;
   const Effect* stood = find_effect(own.instead_of);
   if (stood == nullptr || !can_be_written(*stood)) {
-    problems.push_back({"/instead_of",
-                        own.instead_of,
+    problems.push_back({"/instead_of", own.instead_of,
                         stood == nullptr
                             ? "an effect of the catalogue, as chaintrue effects lists them"
                             : "an effect of paper, chain or reading, because formulas cannot "
@@ -60,8 +58,7 @@ void check_sides(const Declaration& own, Problems& problems) {
         0) {
       problems.push_back({fmt::format("/sides/{}", i), std::string(name(side)), "each side once"});
     } else if (paper ? chain : axis) {
-      problems.push_back({fmt::format("/sides/{}", i),
-                          std::string(name(side)),
+      problems.push_back({fmt::format("/sides/{}", i), std::string(name(side)),
                           paper ? "x, y or both, because it acts on the paper"
                                 : "left, right or both, because it acts on a chain"});
     }
@@ -75,19 +72,15 @@ void check_range(const DeclaredParameter& p, const std::string& at, Problems& pr
   }
   const auto within = [&](double value, std::string_view key) {
     if (value >= p.lower && value <= p.upper && (!p.integer || value == std::round(value))) return;
-    problems.push_back({fmt::format("{}/{}", at, key),
-                        fmt::format("{}", value),
+    problems.push_back({fmt::format("{}/{}", at, key), fmt::format("{}", value),
                         fmt::format("{} from \"lower\" {} to \"upper\" {}",
-                                    p.integer ? "a whole number" : "a number",
-                                    p.lower,
-                                    p.upper)});
+                                    p.integer ? "a whole number" : "a number", p.lower, p.upper)});
   };
   within(p.nominal, "nominal");
   if (p.role == ParameterRole::place) return;
   within(p.null, "null");
   if (p.nominal == p.null) {
-    problems.push_back({at + "/nominal",
-                        fmt::format("{}", p.nominal),
+    problems.push_back({at + "/nominal", fmt::format("{}", p.nominal),
                         "the usual size, which is not the value without effect"});
   }
 }
@@ -97,26 +90,23 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
   const std::string at = fmt::format("/parameters/{}", index);
   const bool first = index == 0;
   if ((p.role == ParameterRole::size) != first) {
-    problems.push_back({at + "/role",
-                        first ? "place" : "size",
+    problems.push_back({at + "/role", first ? "place" : "size",
                         first
                             ? "a size, because the first parameter is the size of the effect"
                             : "a place, because an effect has one size and at most one place after "
                               "it"});
   }
-  std::set<std::string> taken = {
-      "pi", "mm", "sin", "cos", "exp", "log", "sqrt", "abs", "min", "max", "step", "ramp"};
+  std::set<std::string> taken = {"pi",   "mm",  "sin", "cos", "exp",  "log",
+                                 "sqrt", "abs", "min", "max", "step", "ramp"};
   for (const FormulaVariable& variable : variables_of(own.acts_on)) taken.emplace(variable.name);
   for (std::size_t i = 0; i < index; ++i) taken.insert(own.parameters[i].name);
   if (!is_identifier(p.name) || taken.contains(p.name)) {
     problems.push_back(
-        {at + "/name",
-         p.name,
+        {at + "/name", p.name,
          "a name of small letters, digits and _ that nothing else in the formula has"});
   } else if (!unit_of_name(p.name)) {
     problems.push_back(
-        {at + "/name",
-         p.name,
+        {at + "/name", p.name,
          "a name that ends in a unit: mm, n, rad, visit, one per another as in mm_per_rad, or none "
          "for a plain number"});
   }
@@ -125,8 +115,7 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
   }
   if (p.integer && own.acts_on != ActsOn::reading && own.acts_on != ActsOn::visit) {
     problems.push_back(
-        {at + "/whole",
-         "true",
+        {at + "/whole", "true",
          "false, because only an effect on readings or on one visit uses whole numbers"});
   }
   check_range(p, at, problems);
@@ -134,15 +123,13 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
 
 void check_parameters(const Declaration& own, Problems& problems) {
   if (own.parameters.empty() || own.parameters.size() > kMostDeclared) {
-    problems.push_back({"/parameters",
-                        fmt::format("{} parameters", own.parameters.size()),
+    problems.push_back({"/parameters", fmt::format("{} parameters", own.parameters.size()),
                         "one size, and at most one place after it"});
     return;
   }
   for (std::size_t i = 0; i < own.parameters.size(); ++i) check_parameter(own, i, problems);
   if (own.acts_on == ActsOn::visit && (own.parameters.size() < 2 || !own.parameters[1].integer)) {
-    problems.push_back({"/parameters",
-                        fmt::format("{} parameters", own.parameters.size()),
+    problems.push_back({"/parameters", fmt::format("{} parameters", own.parameters.size()),
                         "a size and a place with \"whole\": true, the number of the visit"});
   }
 }
@@ -158,9 +145,8 @@ std::string keys_of(ActsOn acts_on) {
 }
 
 bool states(const Declaration& own, EffectSide axis) {
-  return std::any_of(own.sides.begin(), own.sides.end(), [axis](EffectSide side) {
-    return side == axis || side == EffectSide::both;
-  });
+  return std::any_of(own.sides.begin(), own.sides.end(),
+                     [axis](EffectSide side) { return side == axis || side == EffectSide::both; });
 }
 
 /// Checks which formulas are stated; true if these can be parsed.
@@ -171,10 +157,8 @@ bool check_keys(const Declaration& own, Problems& problems) {
     if ((own.*one.text).empty()) continue;
     ++stated;
     if (!belongs(own.acts_on, one.key)) {
-      problems.push_back({fmt::format("/{}", one.name),
-                          own.*one.text,
-                          fmt::format("{}: it acts on {}",
-                                      keys_of(own.acts_on),
+      problems.push_back({fmt::format("/{}", one.name), own.*one.text,
+                          fmt::format("{}: it acts on {}", keys_of(own.acts_on),
                                       own.acts_on == ActsOn::chain   ? "a chain"
                                       : own.acts_on == ActsOn::paper ? "the paper"
                                                                      : "readings")});
@@ -182,8 +166,7 @@ bool check_keys(const Declaration& own, Problems& problems) {
   }
   const bool paper = own.acts_on == ActsOn::paper;
   if (stated == 0 || (stated > 1 && !paper)) {
-    problems.push_back({"",
-                        stated == 0 ? "no formula" : fmt::format("{} formulas", stated),
+    problems.push_back({"", stated == 0 ? "no formula" : fmt::format("{} formulas", stated),
                         stated == 0 ? keys_of(own.acts_on) : "one of " + keys_of(own.acts_on)});
   }
   for (const auto& [axis, text, key] : {std::tuple{EffectSide::x, &own.adds_x_mm, "/adds_x_mm"},
@@ -191,17 +174,14 @@ bool check_keys(const Declaration& own, Problems& problems) {
     if (!paper) continue;
     if (states(own, axis) && text->empty())
       problems.push_back({key, "", fmt::format("a formula: it acts along {}", name(axis))});
-    const bool may_act =
-        own.sides.empty() || states(own, axis) || states(own, EffectSide::none);
+    const bool may_act = own.sides.empty() || states(own, axis) || states(own, EffectSide::none);
     if (!text->empty() && !may_act)
       problems.push_back({key, *text, fmt::format("no formula, or the side {}", name(axis))});
   }
   return problems.size() == before;
 }
 
-void check_formula(const Declaration& own,
-                   const FormulaRow& one,
-                   std::vector<bool>& used,
+void check_formula(const Declaration& own, const FormulaRow& one, std::vector<bool>& used,
                    Problems& problems) {
   if ((own.*one.text).empty()) return;
   const std::vector<FormulaName> names = names_of(own, one.key);
@@ -226,10 +206,8 @@ void check_formula(const Declaration& own,
   }
   if (direction && state) {
     problems.push_back(
-        {place,
-         "d together with other values of the chain",
-         "d with parameters only; play that changes from place to place cannot be declared",
-         0});
+        {place, "d together with other values of the chain",
+         "d with parameters only; play that changes from place to place cannot be declared", 0});
   }
 }
 
@@ -240,8 +218,7 @@ void check_formulas(const Declaration& own, Problems& problems) {
   for (const FormulaRow& one : kFormulas) check_formula(own, one, used, problems);
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) continue;
-    problems.push_back({fmt::format("/parameters/{}/name", i),
-                        own.parameters[i].name,
+    problems.push_back({fmt::format("/parameters/{}/name", i), own.parameters[i].name,
                         "a parameter that the formula uses, or none"});
   }
 }

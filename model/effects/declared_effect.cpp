@@ -49,8 +49,8 @@ constexpr std::array kUnitWords = {
 };
 
 const UnitWord* find_unit(std::string_view word) {
-  const auto found = std::find_if(
-      kUnitWords.begin(), kUnitWords.end(), [&](const UnitWord& u) { return u.word == word; });
+  const auto found = std::find_if(kUnitWords.begin(), kUnitWords.end(),
+                                  [&](const UnitWord& u) { return u.word == word; });
   return found == kUnitWords.end() ? nullptr : &*found;
 }
 
@@ -113,7 +113,8 @@ PlaceVariable place_variable(const Effect& effect) {
   const FormulaUnit unit = *unit_of_name(place.name);
   PlaceVariable found = PlaceVariable::none;
   for (const FormulaVariable& own : variables_of(effect.law->declaration().acts_on)) {
-    if (own.place == PlaceVariable::none || own.unit != unit || !effect.law->uses(own.name)) continue;
+    if (own.place == PlaceVariable::none || own.unit != unit || !effect.law->uses(own.name))
+      continue;
     if (found != PlaceVariable::none) return PlaceVariable::none;
     found = own.place;
   }

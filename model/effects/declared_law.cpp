@@ -91,8 +91,7 @@ std::vector<FormulaName> names_of(const Declaration& declaration, FormulaKey key
 
 tl::expected<Formula, FormulaProblem> parsed(const Declaration& declaration,
                                              const FormulaRow& row) {
-  return Formula::parse(declaration.*row.text,
-                        names_of(declaration, row.key),
+  return Formula::parse(declaration.*row.text, names_of(declaration, row.key),
                         row.key == FormulaKey::elongation ? FormulaUnit{} : kMm);
 }
 
@@ -102,11 +101,8 @@ DeclaredLaw::DeclaredLaw(const Declaration& declaration) : declaration_(declarat
     auto formula = parsed(declaration, row);
     if (!formula) {
       const FormulaProblem& problem = formula.error();
-      throw std::invalid_argument(fmt::format("{}: {}: found {}, expected {}",
-                                              declaration.id,
-                                              problem.offset,
-                                              problem.found,
-                                              problem.expected));
+      throw std::invalid_argument(fmt::format("{}: {}: found {}, expected {}", declaration.id,
+                                              problem.offset, problem.found, problem.expected));
     }
     formulas_[static_cast<std::size_t>(row.key)] = *std::move(formula);
   }

@@ -19,15 +19,13 @@ std::string_view name(Station station) {
 }
 
 std::string_view name(EffectSide side) {
-  return word(side,
-              std::array<std::string_view, 11>{
-                  "", "left", "right", "both", "x", "y", "tl", "tr", "bl", "br", "all"});
+  return word(side, std::array<std::string_view, 11>{"", "left", "right", "both", "x", "y", "tl",
+                                                     "tr", "bl", "br", "all"});
 }
 
 std::string_view name(RemedyKind kind) {
-  return word(kind,
-              std::array<std::string_view, 4>{
-                  "change the machine", "correct the data", "repair", "compensate on its own"});
+  return word(kind, std::array<std::string_view, 4>{"change the machine", "correct the data",
+                                                    "repair", "compensate on its own"});
 }
 
 std::string_view name(DataNeed need) {
@@ -35,12 +33,10 @@ std::string_view name(DataNeed need) {
 }
 
 std::string_view name(Part part) {
-  return word(part,
-              std::array<std::string_view, 5>{"",
-                                              "a sled on a ring (\"kind\": \"ring\")",
-                                              "a sled on brackets (\"kind\": \"brackets\")",
-                                              "a gondola that two points hold",
-                                              "a pulley or spool with its radius"});
+  return word(part, std::array<std::string_view, 5>{"", "a sled on a ring (\"kind\": \"ring\")",
+                                                    "a sled on brackets (\"kind\": \"brackets\")",
+                                                    "a gondola that two points hold",
+                                                    "a pulley or spool with its radius"});
 }
 
 LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket) {

@@ -26,15 +26,13 @@ std::string expected_sides(const Effect& effect) {
 }
 
 std::string expected_value(const EffectParameter& parameter) {
-  return fmt::format("{} from {} to {}",
-                     parameter.integer ? "a whole number" : "a number",
-                     parameter.lower,
-                     parameter.upper);
+  return fmt::format("{} from {} to {}", parameter.integer ? "a whole number" : "a number",
+                     parameter.lower, parameter.upper);
 }
 
 const EffectSide* find_side(const Effect& effect, std::string_view side) {
-  const auto found = std::find_if(
-      effect.sides.begin(), effect.sides.end(), [&](EffectSide s) { return name(s) == side; });
+  const auto found = std::find_if(effect.sides.begin(), effect.sides.end(),
+                                  [&](EffectSide s) { return name(s) == side; });
   return found == effect.sides.end() ? nullptr : &*found;
 }
 
@@ -43,11 +41,8 @@ bool acceptable(const EffectParameter& parameter, double value) {
          (!parameter.integer || value == std::floor(value));
 }
 
-void check_parameters(const Effect& effect,
-                      const AppliedEffect& applied,
-                      const std::string& place,
-                      bool all_stated,
-                      std::vector<MachineProblem>& problems) {
+void check_parameters(const Effect& effect, const AppliedEffect& applied, const std::string& place,
+                      bool all_stated, std::vector<MachineProblem>& problems) {
   std::vector<std::string_view> names;
   for (const EffectParameter& parameter : effect.parameters) {
     names.push_back(parameter.name);
@@ -63,8 +58,7 @@ void check_parameters(const Effect& effect,
   }
   for (const auto& [key, value] : applied.parameters) {
     if (std::find(names.begin(), names.end(), key) != names.end()) continue;
-    problems.push_back({fmt::format("{}/parameters/{}", place, key),
-                        fmt::format("{}", value),
+    problems.push_back({fmt::format("{}/parameters/{}", place, key), fmt::format("{}", value),
                         fmt::format("{} takes {}", effect.id, quoted_list(names))});
   }
 }
@@ -87,14 +81,12 @@ std::vector<MachineProblem> problems_in(EffectTable table,
     if (effect == nullptr) {
       std::vector<std::string_view> ids;
       for (const Effect* known : table) ids.push_back(known->id);
-      problems.push_back({place + "/effect",
-                          applied[i].effect,
+      problems.push_back({place + "/effect", applied[i].effect,
                           "an effect of the catalogue: " + quoted_list(ids)});
       continue;
     }
     if (find_side(*effect, applied[i].side) == nullptr) {
-      problems.push_back({place + "/side",
-                          applied[i].side.empty() ? "null" : applied[i].side,
+      problems.push_back({place + "/side", applied[i].side.empty() ? "null" : applied[i].side,
                           expected_sides(*effect)});
     }
     check_parameters(*effect, applied[i], place, all_stated, problems);

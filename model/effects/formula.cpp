@@ -86,14 +86,12 @@ class FormulaParser {
     sum();
     if (at_ < text_.size()) {
       stop(
-          at_,
-          found_here(),
+          at_, found_here(),
           text_[at_] == ')' ? "no unmatched closing bracket" : "an operator + - * / ^, or the end");
     }
     const Operand& whole = operands_.back();
     if (!whole.bare && !(whole.unit == wanted)) {
-      stop(0,
-           fmt::format("a formula in {}", describe(whole.unit)),
+      stop(0, fmt::format("a formula in {}", describe(whole.unit)),
            fmt::format("one whose units come out as {}", words(wanted)));
     }
     return std::move(formula_);
@@ -142,8 +140,7 @@ class FormulaParser {
    public:
     Level(FormulaParser& parser, std::size_t offset) : parser_(parser) {
       if (++parser_.depth_ > Formula::kDeepest) {
-        stop(offset,
-             fmt::format("brackets, signs and powers more than {} deep", Formula::kDeepest),
+        stop(offset, fmt::format("brackets, signs and powers more than {} deep", Formula::kDeepest),
              "a formula with fewer nested levels");
       }
     }
@@ -255,8 +252,7 @@ class FormulaParser {
     std::vector<std::string> known;
     for (const FormulaName& one : names_) known.push_back(one.name);
     known.insert(known.end(), {"mm", "N", "pi"});
-    stop(offset,
-         word,
+    stop(offset, word,
          find_function(word) != nullptr
              ? fmt::format("a bracket after {}, as in {}(...)", word, word)
              : fmt::format("a name that this formula may use: {}", fmt::join(known, ", ")));
@@ -267,19 +263,15 @@ class FormulaParser {
     Kind kind;
     std::size_t arguments;
   };
-  static constexpr std::array kFunctions = {Function{"sin", Kind::sine, 1},
-                                            Function{"cos", Kind::cosine, 1},
-                                            Function{"exp", Kind::exponential, 1},
-                                            Function{"log", Kind::logarithm, 1},
-                                            Function{"sqrt", Kind::root, 1},
-                                            Function{"abs", Kind::absolute, 1},
-                                            Function{"step", Kind::step, 1},
-                                            Function{"ramp", Kind::ramp, 1},
-                                            Function{"min", Kind::least, 2},
-                                            Function{"max", Kind::greatest, 2}};
+  static constexpr std::array kFunctions = {
+      Function{"sin", Kind::sine, 1},        Function{"cos", Kind::cosine, 1},
+      Function{"exp", Kind::exponential, 1}, Function{"log", Kind::logarithm, 1},
+      Function{"sqrt", Kind::root, 1},       Function{"abs", Kind::absolute, 1},
+      Function{"step", Kind::step, 1},       Function{"ramp", Kind::ramp, 1},
+      Function{"min", Kind::least, 2},       Function{"max", Kind::greatest, 2}};
   static const Function* find_function(std::string_view word) {
-    const auto found = std::find_if(
-        kFunctions.begin(), kFunctions.end(), [&](const Function& f) { return f.name == word; });
+    const auto found = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                    [&](const Function& f) { return f.name == word; });
     return found == kFunctions.end() ? nullptr : &*found;
   }
 
@@ -299,10 +291,8 @@ class FormulaParser {
       if (!take(')')) stop(at_, found_here(), "a comma or a closing bracket )");
     }
     if (arguments != function->arguments) {
-      stop(offset,
-           fmt::format("{} with {} argument{}", word, arguments, arguments == 1 ? "" : "s"),
-           fmt::format("{} with {}",
-                       word,
+      stop(offset, fmt::format("{} with {} argument{}", word, arguments, arguments == 1 ? "" : "s"),
+           fmt::format("{} with {}", word,
                        function->arguments == 1 ? "one argument"
                                                 : "two arguments, as in " + word + "(a, b)"));
     }
@@ -316,13 +306,11 @@ class FormulaParser {
     const bool of_number = kind == Kind::sine || kind == Kind::cosine ||
                            kind == Kind::exponential || kind == Kind::logarithm;
     if (of_number && !(own.unit == FormulaUnit{})) {
-      stop(offset,
-           fmt::format("{} of {}", word, words(own.unit)),
+      stop(offset, fmt::format("{} of {}", word, words(own.unit)),
            fmt::format(
                "{} of a plain number; divide by a quantity with the same unit, as in {}(x / (100 * "
                "mm))",
-               word,
-               word));
+               word, word));
     }
     if (kind == Kind::root) own.unit = {0.5 * own.unit.mm, 0.5 * own.unit.n};
     // The constant 1 or 0, in any unit.
@@ -351,8 +339,7 @@ class FormulaParser {
       result.unit = raised(a, b, offset);
     } else {
       if (!a.bare && !b.bare && !(a.unit == b.unit)) {
-        stop(offset,
-             fmt::format("{} together with {}", words(a.unit), words(b.unit)),
+        stop(offset, fmt::format("{} together with {}", words(a.unit), words(b.unit)),
              "two values with the same unit");
       }
       result.unit = a.bare ? b.unit : a.unit;
@@ -365,8 +352,7 @@ class FormulaParser {
       stop(offset, fmt::format("a power of {}", words(b.unit)), "a number after ^");
     if (a.unit == FormulaUnit{}) return {};
     if (!b.constant) {
-      stop(offset,
-           fmt::format("{} to a power that varies", words(a.unit)),
+      stop(offset, fmt::format("{} to a power that varies", words(a.unit)),
            "a plain number after ^, so that the unit is known");
     }
     return {a.unit.mm * *b.constant, a.unit.n * *b.constant};

@@ -18,18 +18,14 @@ namespace chaintrue::model::effects {
 inline constexpr EffectSide kOneChain[] = {EffectSide::left, EffectSide::right};
 inline constexpr EffectSide kAnyChain[] = {EffectSide::left, EffectSide::right, EffectSide::both};
 inline constexpr EffectSide kPaperAxes[] = {EffectSide::x, EffectSide::y, EffectSide::both};
-inline constexpr EffectSide kOneBelt[] = {
-    EffectSide::tl, EffectSide::tr, EffectSide::bl, EffectSide::br};
-inline constexpr EffectSide kOneBeltOrAll[] = {
-    EffectSide::tl, EffectSide::tr, EffectSide::bl, EffectSide::br, EffectSide::all};
+inline constexpr EffectSide kOneBelt[] = {EffectSide::tl, EffectSide::tr, EffectSide::bl,
+                                          EffectSide::br};
+inline constexpr EffectSide kOneBeltOrAll[] = {EffectSide::tl, EffectSide::tr, EffectSide::bl,
+                                               EffectSide::br, EffectSide::all};
 
 /// A size that vanishes at 0. Its usual spread is its usual size unless stated.
-constexpr EffectParameter size(std::string_view name,
-                               std::string_view symbol,
-                               std::string_view meaning,
-                               double usual,
-                               double lower,
-                               double upper,
+constexpr EffectParameter size(std::string_view name, std::string_view symbol,
+                               std::string_view meaning, double usual, double lower, double upper,
                                double prior_sigma = 0.0) {
   if (prior_sigma == 0.0) prior_sigma = usual < 0.0 ? -usual : usual;
   return {.name = name,
@@ -40,13 +36,9 @@ constexpr EffectParameter size(std::string_view name,
           .upper = upper,
           .prior_sigma = prior_sigma};
 }
-constexpr EffectParameter place(std::string_view name,
-                                std::string_view symbol,
-                                std::string_view meaning,
-                                double nominal,
-                                double lower,
-                                double upper,
-                                double prior_sigma) {
+constexpr EffectParameter place(std::string_view name, std::string_view symbol,
+                                std::string_view meaning, double nominal, double lower,
+                                double upper, double prior_sigma) {
   EffectParameter parameter = size(name, symbol, meaning, nominal, lower, upper, prior_sigma);
   parameter.role = ParameterRole::place;
   parameter.null = nominal;
@@ -79,8 +71,6 @@ inline Number zero_shifted(const LengthState& length, Values values) {
   return length.order >= values[1] ? values[0] : 0.0;
 }
 /// d n.
-inline Number drifted(const LengthState& length, Values values) {
-  return values[0] * length.order;
-}
+inline Number drifted(const LengthState& length, Values values) { return values[0] * length.order; }
 
 }  // namespace chaintrue::model::effects

@@ -9,8 +9,7 @@ namespace chaintrue::model {
 namespace {
 
 /// Where circles about the pins meet below them, in the machine's frame.
-tl::expected<BedPoint, PlotterFailure> circles_meet(const PlotterMachine& as_set,
-                                                    double rise_mm,
+tl::expected<BedPoint, PlotterFailure> circles_meet(const PlotterMachine& as_set, double rise_mm,
                                                     ChainLengths own) {
   const double half = 0.5 * as_set.pin_spacing_mm, up = 0.5 * rise_mm;
   const double apart = 2.0 * std::hypot(half, up);
@@ -25,8 +24,7 @@ tl::expected<BedPoint, PlotterFailure> circles_meet(const PlotterMachine& as_set
 }
 
 /// A mural's tilt bends the relation: Newton from where straight cords would meet.
-tl::expected<BedPoint, PlotterFailure> newton_below(const PlotterMachine& as_set,
-                                                    ChainLengths own,
+tl::expected<BedPoint, PlotterFailure> newton_below(const PlotterMachine& as_set, ChainLengths own,
                                                     BedPoint start) {
   constexpr int kMostSteps = 60;
   constexpr double kConvergedMm = 1e-9;
@@ -72,8 +70,8 @@ PoseFailure pose_failure(const PlotterFailure& failure) {
 }  // namespace
 
 tl::expected<ChainLengths, PoseFailure> PlotterController::lengths(BedPoint command) const {
-  const auto found = paid_out(
-      firmware_, as_set_, {command.x_mm - pins_middle_.x_mm, command.y_mm - pins_middle_.y_mm});
+  const auto found = paid_out(firmware_, as_set_,
+                              {command.x_mm - pins_middle_.x_mm, command.y_mm - pins_middle_.y_mm});
   if (!found) return tl::unexpected(pose_failure(found.error()));
   return *found;
 }

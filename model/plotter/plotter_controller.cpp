@@ -29,9 +29,7 @@ struct MuralPose {
   ByCommand force_left_n, force_right_n;
 };
 
-MuralPose pose_at(const MuralBot& bot,
-                  const ByCommand& x,
-                  const ByCommand& y,
+MuralPose pose_at(const MuralBot& bot, const ByCommand& x, const ByCommand& y,
                   const ByCommand& tilt) {
   const double half = 0.5 * bot.d_t;
   const ByCommand c = cos(tilt), s = sin(tilt);
@@ -67,11 +65,8 @@ tl::expected<PerSide<ByCommand>, PlotterFailure> mural_lengths(const PlotterMach
   constexpr int kMostPasses = 200;
   const double q = as_set.pulley_radius_mm / std::numbers::sqrt2;
   const Gondola& g = as_set.gondola;
-  const MuralBot bot{as_set.pin_spacing_mm,
-                     g.spacing_mm - 2.0 * q,
-                     g.pen_below_mm + q,
-                     g.mass_below_mm + q,
-                     plotter::statics_of(as_set).weight_n};
+  const MuralBot bot{as_set.pin_spacing_mm, g.spacing_mm - 2.0 * q, g.pen_below_mm + q,
+                     g.mass_below_mm + q, plotter::statics_of(as_set).weight_n};
   const ByCommand x = ByCommand::variable(command.x_mm, 0) + 0.5 * bot.pins_mm;
   const ByCommand y = -ByCommand::variable(command.y_mm, 1);
   ByCommand tilt = 0.0, change = 1.0;

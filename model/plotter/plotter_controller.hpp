@@ -25,10 +25,9 @@
 namespace chaintrue::model {
 
 enum class PlotterFirmware { fluidnc, marlin, polargraph, mural };
-inline constexpr PlotterFirmware kPlotterFirmwares[] = {PlotterFirmware::fluidnc,
-                                                        PlotterFirmware::marlin,
-                                                        PlotterFirmware::polargraph,
-                                                        PlotterFirmware::mural};
+inline constexpr PlotterFirmware kPlotterFirmwares[] = {
+    PlotterFirmware::fluidnc, PlotterFirmware::marlin, PlotterFirmware::polargraph,
+    PlotterFirmware::mural};
 std::string_view name(PlotterFirmware firmware);
 
 /// `as_set` has the controller's settings. The command is in the machine's frame. \throws

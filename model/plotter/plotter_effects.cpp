@@ -21,8 +21,8 @@ void adds_to(Statics& m, EffectSide, const PerSide<double>&, Values v) {
 
 constexpr Effect pen_off_centre{
     .id = "pen_off_centre",
-    .parameters = {mirrored(size("offset_mm", "o", "distance of the pen right of its setting", 5.0,
-                                 -200.0, 200.0))},
+    .parameters = {mirrored(
+        size("offset_mm", "o", "distance of the pen right of its setting", 5.0, -200.0, 200.0))},
     .cause = "the pen is not in the middle of the gondola",
     .signature =
         "verticals lean and horizontals bow near the sides, in opposite directions left and right",
@@ -54,8 +54,7 @@ constexpr Effect servo_arm{
 
 constexpr Effect gondola_width{
     .id = "gondola_width",
-    .parameters = {size("offset_mm", "w", "true minus set distance", 2.0, -50.0,
-                        50.0)},
+    .parameters = {size("offset_mm", "w", "true minus set distance", 2.0, -50.0, 50.0)},
     .cause = "the gondola's pulleys or eyelets are farther apart than set",
     .signature = "like an error of the pin spacing, reduced by the gondola's tilt",
     .equation = "spacing + w",
@@ -69,10 +68,9 @@ constexpr Effect gondola_width{
 
 constexpr Effect standoff{
     .id = "standoff",
-    .parameters = {size("offset_mm", "d", "true minus set distance from the wall", 10.0,
-                        -100.0, 100.0)},
-    .cause =
-        "pins or the gondola's pulleys are closer to the wall or farther from it than set",
+    .parameters = {size("offset_mm", "d", "true minus set distance from the wall", 10.0, -100.0,
+                        100.0)},
+    .cause = "pins or the gondola's pulleys are closer to the wall or farther from it than set",
     .signature =
         "short cords are more in error than long ones: the top of the drawing is stretched",
     .equation = "standoff + d",
@@ -85,8 +83,7 @@ constexpr Effect standoff{
 
 constexpr Effect gondola_mass{
     .id = "gondola_mass",
-    .parameters = {size("relative", "g", "relative excess of its mass", -0.4, -0.9,
-                        9.0)},
+    .parameters = {size("relative", "g", "relative excess of its mass", -0.4, -0.9, 9.0)},
     .cause = "the gondola is too light to keep its cords straight, or heavier than set",
     .signature =
         "long, heavy cords sag, so horizontals bow at the sides; with elastic cords the drawing is "
@@ -96,8 +93,8 @@ constexpr Effect gondola_mass{
     .not_modelled = "cords that stay curled",
     .typical = "20 to 50 %",
     .remedy = "weigh the gondola and enter it; add weight until the cords hang straight",
-    .alter_cords =
-        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.weight_n *= 1.0 + v[0]; },
+    .alter_cords = [](Statics& m, EffectSide, const PerSide<double>&,
+                      Values v) { m.weight_n *= 1.0 + v[0]; },
 };
 
 constexpr Effect pen_friction{
@@ -122,9 +119,8 @@ constexpr Effect pen_friction{
 constexpr Effect cord_stretch{
     .id = "cord_stretch",
     .sides = kAnyChain,
-    .parameters = {size("compliance_per_n", "c",
-                        "additional relative stretch per newton", 2e-4, 0.0,
-                        0.01)},
+    .parameters = {size("compliance_per_n", "c", "additional relative stretch per newton", 2e-4,
+                        0.0, 0.01)},
     .cause = "cords or belts stretch under the gondola more than set",
     .signature =
         "the pen hangs low where its cords are long or under high tension: horizontals bow at the "
@@ -166,9 +162,9 @@ constexpr Effect spool_eccentricity{
     .id = "spool_eccentricity",
     .station = Station::chain,
     .sides = kOneChain,
-    .parameters = {size("amplitude_mm", "a", "distance of its centre from its axis", 0.2, 0.0, 10.0),
-                   place("phase_rad", "p", "phase at length 0", 0.0, -6.3, 6.3,
-                         3.2)},
+    .parameters = {size("amplitude_mm", "a", "distance of its centre from its axis", 0.2, 0.0,
+                        10.0),
+                   place("phase_rad", "p", "phase at length 0", 0.0, -6.3, 6.3, 3.2)},
     .cause = "a pulley or spool is bored off its centre, or its shaft is bent",
     .signature = "a wave along every line, repeating with each turn of one pulley",
     .equation = "+ a sin(2 pi L / u + p)",
@@ -189,8 +185,7 @@ constexpr Effect spool_layers{
     .station = Station::chain,
     .sides = kAnyChain,
     .parameters = {size("growth_mm_per_m2", "b",
-                        "excess counted for the second metre over the first", 5.0, 0.0,
-                        500.0)},
+                        "excess counted for the second metre over the first", 5.0, 0.0, 500.0)},
     .cause = "the cord winds in layers on its spool, whose diameter shrinks as it pays out",
     .signature = "the drawing shrinks towards the bottom, and verticals lean towards the spool",
     .equation = "+ b L^2 / 2",
@@ -212,8 +207,8 @@ constexpr Effect tooth_skip{
     .id = "tooth_skip",
     .station = Station::chain,
     .sides = kOneChain,
-    .parameters = {whole(size("teeth", "k", "teeth, positive if too much is counted", 1.0,
-                              -200.0, 200.0, 3.0)),
+    .parameters = {whole(size("teeth", "k", "teeth, positive if too much is counted", 1.0, -200.0,
+                              200.0, 3.0)),
                    first_visit()},
     .cause = "a belt skipped teeth of its pulley, or a motor lost steps",
     .signature = "all lines after one are shifted and bent",
@@ -231,8 +226,7 @@ constexpr Effect zero_shift{
     .id = "zero_shift",
     .station = Station::chain,
     .sides = kOneChain,
-    .parameters = {size("shift_mm", "z", "excess counted from then on", 2.0, -500.0,
-                        500.0, 3.0),
+    .parameters = {size("shift_mm", "z", "excess counted from then on", 2.0, -500.0, 500.0, 3.0),
                    first_visit()},
     .cause = "a cord slipped in its clamp or on its pulley while the machine drew",
     .signature = "all lines after one are shifted and bent",
@@ -250,8 +244,8 @@ constexpr Effect drift{
     .id = "drift",
     .station = Station::chain,
     .sides = kAnyChain,
-    .parameters = {size("rate_mm_per_visit", "d", "growth of the excess per visit", 0.03,
-                        -1.0, 1.0)},
+    .parameters = {size("rate_mm_per_visit", "d", "growth of the excess per visit", 0.03, -1.0,
+                        1.0)},
     .cause = "a cord creeps, or slips a little with each move",
     .signature = "the last lines do not meet the first",
     .equation = "+ d n",
@@ -264,19 +258,10 @@ constexpr Effect drift{
     .add = drifted,
 };
 
-constexpr const Effect* kEffects[] = {&pen_off_centre,
-                                      &servo_arm,
-                                      &gondola_width,
-                                      &standoff,
-                                      &gondola_mass,
-                                      &pen_friction,
-                                      &cord_stretch,
-                                      &cord_weight,
-                                      &spool_eccentricity,
-                                      &spool_layers,
-                                      &tooth_skip,
-                                      &zero_shift,
-                                      &drift};
+constexpr const Effect* kEffects[] = {
+    &pen_off_centre, &servo_arm,    &gondola_width, &standoff,           &gondola_mass,
+    &pen_friction,   &cord_stretch, &cord_weight,   &spool_eccentricity, &spool_layers,
+    &tooth_skip,     &zero_shift,   &drift};
 
 }  // namespace
 

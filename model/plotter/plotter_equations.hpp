@@ -99,12 +99,8 @@ Offset<T> end_at_gondola(const Statics& m, const CordLoad<T>& load, double s, co
 
 /// The left sides of (1) of one cord: across, up, off the wall.
 template <class T>
-std::array<T, 3> cord_residual(const Statics& m,
-                               const CordLoad<T>& load,
-                               const Placed<T>& at,
-                               const Offset<T>& middle,
-                               const T& tilt,
-                               Side side) {
+std::array<T, 3> cord_residual(const Statics& m, const CordLoad<T>& load, const Placed<T>& at,
+                               const Offset<T>& middle, const T& tilt, Side side) {
   using std::sqrt;
   const double s = side == Side::left ? -1.0 : 1.0;
   const ChainMaterial& cord = m.cord[side];

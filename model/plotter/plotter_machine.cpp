@@ -22,15 +22,13 @@ void check_gondola(const PlotterMachine& machine, RangeChecks& checks) {
   if (!is_point(g)) return;
   if (g.pen_below_mm != 0.0 || g.pen_right_mm != 0.0 || g.mass_below_mm != 0.0 ||
       g.mass_right_mm != 0.0) {
-    checks.add("/gondola",
-               "a spacing of 0, and a pen or a mass away from the cords' end",
+    checks.add("/gondola", "a spacing of 0, and a pen or a mass away from the cords' end",
                "0 for pen and mass if both cords end at the pen; otherwise the spacing of the two "
                "points where the cords hold the gondola");
   }
   if (machine.motors == MotorPlace::gondola) {
     checks.add(
-        "/motors",
-        "gondola",
+        "/motors", "gondola",
         "wall if both cords end at the pen; otherwise the spacing of the pulleys in the gondola");
   }
 }
@@ -46,11 +44,8 @@ void check_area(const PlotterMachine& machine, RangeChecks& checks) {
   if (!checks.sound()) return;
   if (!(area.left_mm < area.right_mm && area.bottom_mm < area.top_mm)) {
     checks.add("/area",
-               fmt::format("x from {} to {}, y from {} to {}",
-                           area.left_mm,
-                           area.right_mm,
-                           area.bottom_mm,
-                           area.top_mm),
+               fmt::format("x from {} to {}, y from {} to {}", area.left_mm, area.right_mm,
+                           area.bottom_mm, area.top_mm),
                "left below right and bottom below top; y is 0 at the pins and negative below them");
   }
 }
@@ -78,10 +73,8 @@ PlotterMachine mural(double pin_spacing_mm) {
                      .mass_kg = 0.55,
                      .standoff_mm = 41.0};
   machine.cord = {.mass_kg_per_m = 0.0, .compliance_per_n = 5e-5, .tooth_mm = 2.0};
-  machine.area = {-(0.5 - kMargin) * pin_spacing_mm,
-                  (0.5 - kMargin) * pin_spacing_mm,
-                  -kMargin * pin_spacing_mm,
-                  -pin_spacing_mm};
+  machine.area = {-(0.5 - kMargin) * pin_spacing_mm, (0.5 - kMargin) * pin_spacing_mm,
+                  -kMargin * pin_spacing_mm, -pin_spacing_mm};
   return machine;
 }
 
@@ -96,8 +89,8 @@ std::vector<MachineProblem> problems_of(const PlotterMachine& machine) {
   for (const Side side : kSides) {
     const char* word = side == Side::left ? "left" : "right";
     checks.range(fmt::format("/zero/{}_mm", word), machine.zero_mm[side], -20000.0, 20000.0);
-    checks.range(
-        fmt::format("/scale/{}_mm_per_m", word), machine.scale_mm_per_m[side], -500.0, 500.0);
+    checks.range(fmt::format("/scale/{}_mm_per_m", word), machine.scale_mm_per_m[side], -500.0,
+                 500.0);
   }
   const PlotterUncertainty& sigma = machine.uncertainty;
   checks.range("/uncertainty/pin_spacing_mm", sigma.pin_spacing_mm, 1e-3, 1000.0);
@@ -108,8 +101,7 @@ std::vector<MachineProblem> problems_of(const PlotterMachine& machine) {
   if (!checks.sound()) return checks.take();
   // With a body as wide as the pins are apart, the cords hang straight down and fix no position.
   if (!(machine.pin_spacing_mm > 1.5 * machine.gondola.spacing_mm)) {
-    checks.add("/pin_spacing_mm",
-               machine.pin_spacing_mm,
+    checks.add("/pin_spacing_mm", machine.pin_spacing_mm,
                fmt::format("more than one and a half times the gondola's spacing of {} mm; was it "
                            "given in inches?",
                            machine.gondola.spacing_mm));

@@ -14,12 +14,9 @@ constexpr std::array<std::string_view, 2> kCordLengths = {"left", "right"};
 /// The settings in force, in the order of PlotterParameter.
 template <class Machine>
 auto settings_of(Machine& machine) {
-  return std::array{&machine.pin_spacing_mm,
-                    &machine.pin_rise_mm,
-                    &machine.zero_mm.left_mm,
-                    &machine.zero_mm.right_mm,
-                    &machine.scale_mm_per_m.left_mm,
-                    &machine.scale_mm_per_m.right_mm};
+  return std::array{&machine.pin_spacing_mm,         &machine.pin_rise_mm,
+                    &machine.zero_mm.left_mm,        &machine.zero_mm.right_mm,
+                    &machine.scale_mm_per_m.left_mm, &machine.scale_mm_per_m.right_mm};
 }
 
 Eigen::VectorXd values_of(const PlotterMachine& machine) {
@@ -52,12 +49,8 @@ PlotterMechanism::PlotterMechanism(const PlotterMachine& machine)
 PlotterMechanism::PlotterMechanism(PlotterMachine machine,
                                    std::vector<MechanismParameter> parameters,
                                    std::vector<AppliedEffect> applied)
-    : MechanismBase("plotter",
-                    kCordLengths,
-                    plotter::plotter_effects(),
-                    std::move(parameters),
-                    values_of(machine),
-                    std::move(applied)),
+    : MechanismBase("plotter", kCordLengths, plotter::plotter_effects(), std::move(parameters),
+                    values_of(machine), std::move(applied)),
       machine_(std::move(machine)),
       statics_(plotter::statics_of(machine_)),
       acting_(effects::resolve(plotter::plotter_effects(), this->applied())) {

@@ -33,8 +33,7 @@ class PlotterMechanism final : public MechanismBase {
   MechanismExtent extent() const override;
   /// Fails with a PlotterReason's name.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
-      const ToolPosition& position,
-      const MechanismVisit& visit,
+      const ToolPosition& position, const MechanismVisit& visit,
       Derivatives wanted = Derivatives::by_position_and_parameter) const override;
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
@@ -45,8 +44,7 @@ class PlotterMechanism final : public MechanismBase {
   const PlotterMachine& machine() const { return machine_; }
 
  private:
-  PlotterMechanism(PlotterMachine machine,
-                   std::vector<MechanismParameter> parameters,
+  PlotterMechanism(PlotterMachine machine, std::vector<MechanismParameter> parameters,
                    std::vector<AppliedEffect> applied);
   std::shared_ptr<const Mechanism> rebuild(const Eigen::VectorXd& values,
                                            std::vector<AppliedEffect> applied) const override;

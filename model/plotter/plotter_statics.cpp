@@ -9,8 +9,9 @@ namespace chaintrue::model {
 MechanismReason named(PlotterReason reason) {
   constexpr std::array<MechanismReason, 5> kReasons = {{
       {"above_the_pins", "the gondola would be above a point where its cords are attached"},
-      {"outside_the_pins", "the gondola would not be between the points where its cords are "
-                           "attached"},
+      {"outside_the_pins",
+       "the gondola would not be between the points where its cords are "
+       "attached"},
       {"slack", "a cord would be slack, because the gondola is too light for the forces on it"},
       {"cords_do_not_meet", "cords of these lengths do not meet"},
       {"not_converged", "no equilibrium was found"},
@@ -41,8 +42,8 @@ Unknowns<double> straight_start(const Statics& m, const Placed<double>& at) {
     const Offset<double> way{std::max(u, 0.02 * at.pin_spacing),
                              std::max(y, 0.02 * at.pin_spacing)};
     const double length = std::hypot(way.x, way.y, m.standoff_mm);
-    return CordLoad<double>{
-        way.y / way.x, 0.5 * m.cord[side].weight_n_per_mm * length, way.x, length};
+    return CordLoad<double>{way.y / way.x, 0.5 * m.cord[side].weight_n_per_mm * length, way.x,
+                            length};
   };
   const CordLoad<double> l = chord(-1.0, Side::left), r = chord(1.0, Side::right);
   const double load = m.weight_n - m.lift_n + l.v + r.v;
@@ -112,14 +113,13 @@ tl::expected<CordsAtRest, PlotterFailure> cords_at(const Statics& statics,
   Unknowns<double> q = straight_start(statics, place);
   if (!converge(statics, place, q) && !converge_by_continuation(statics, place, q))
     return tl::unexpected(PlotterReason::not_converged);
-  const Placed<Number> varied{Number::variable(place.x, 0),
-                              Number::variable(place.y, 1),
+  const Placed<Number> varied{Number::variable(place.x, 0), Number::variable(place.y, 1),
                               Number::variable(place.pin_spacing, 2),
                               Number::variable(place.pin_rise, 3)};
   const Unknowns<Number> at = hanging::with_derivatives<kPlaced>(
       equations_of_unknowns(statics, place), equations_at(statics, varied), q);
-  return CordsAtRest{
-      cord_state(statics, at, Side::left), cord_state(statics, at, Side::right), at[kTurn]};
+  return CordsAtRest{cord_state(statics, at, Side::left), cord_state(statics, at, Side::right),
+                     at[kTurn]};
 }
 
 }  // namespace plotter

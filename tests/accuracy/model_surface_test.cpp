@@ -65,9 +65,7 @@ grid::MeasuredGrid measured(const std::vector<MarkPoint>& places) {
   return grid;
 }
 
-CompensationMap fitted(const grid::MeasuredGrid& grid) {
-  return grid::fit(grid).value();
-}
+CompensationMap fitted(const grid::MeasuredGrid& grid) { return grid::fit(grid).value(); }
 
 struct BedError {
   double rms_mm = 0.0;
@@ -85,8 +83,7 @@ double largest_error_mm(const CompensationMap& map) {
       const MarkPoint p{bed.width_mm * (ix / 48.0 - 0.5), bed.height_mm * (iy / 24.0 - 0.5)};
       const ChainLengths reply = map.lengths(p).value().lengths;
       const ChainLengths truth = truth_at(p);
-      largest = std::max({largest,
-                          std::abs(reply.left_mm - truth.left_mm),
+      largest = std::max({largest, std::abs(reply.left_mm - truth.left_mm),
                           std::abs(reply.right_mm - truth.right_mm)});
     }
   }
@@ -145,14 +142,12 @@ TEST_P(ModelSurface, UsesTheTruePlacesOfTheSled) {
   EXPECT_LE(error_of(fitted(measured(places))).rms_mm, GetParam().beside_rms_mm) << "seed 1000";
 }
 
-INSTANTIATE_TEST_SUITE_P(FewPoints,
-                         ModelSurface,
-                         testing::Values(Figure{{4, 7}, 0.040, 0.020},
-                                         Figure{{5, 9}, 0.010, 0.010},
+INSTANTIATE_TEST_SUITE_P(FewPoints, ModelSurface,
+                         testing::Values(Figure{{4, 7}, 0.040, 0.020}, Figure{{5, 9}, 0.010, 0.010},
                                          Figure{{7, 13}, 0.005, 0.004}),
                          [](const auto& figure) {
-                           return fmt::format(
-                               "{}x{}", figure.param.layout.rows, figure.param.layout.columns);
+                           return fmt::format("{}x{}", figure.param.layout.rows,
+                                              figure.param.layout.columns);
                          });
 
 TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
@@ -166,8 +161,7 @@ TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
     const auto answer = map.query(whole[missing]);
     ASSERT_TRUE(answer);
     const ChainLengths truth = truth_at(whole[missing]);
-    largest = std::max({largest,
-                        std::abs(answer->lengths.left_mm - truth.left_mm),
+    largest = std::max({largest, std::abs(answer->lengths.left_mm - truth.left_mm),
                         std::abs(answer->lengths.right_mm - truth.right_mm)});
   }
   // 0.02 is required, and reached except at the corner below a motor; the limit is the value

@@ -51,8 +51,7 @@ grid::MeasuredGrid whole_of(const Scan& scan) {
   files::OpticalOptions options;
   options.machine =
       // The settings in force were not recorded, so the tolerances' purpose is unknown.
-      files::read(files::parse_groundcontrol,
-                  data / "holey" / "groundcontrol_2018-09-01b.ini",
+      files::read(files::parse_groundcontrol, data / "holey" / "groundcontrol_2018-09-01b.ini",
                   files::Tolerances::unexplained)
           .machine;
   options.pitch_mm = kPitchMm;
@@ -60,15 +59,13 @@ grid::MeasuredGrid whole_of(const Scan& scan) {
 }
 
 grid::MeasuredGrid few_of(const Scan& scan, grid::MeasuredGrid whole) {
-  std::erase_if(whole.points, [&](const grid::MeasuredPoint& point) {
-    return !is_fitted(scan, point.mark);
-  });
+  std::erase_if(whole.points,
+                [&](const grid::MeasuredPoint& point) { return !is_fitted(scan, point.mark); });
   return whole;
 }
 
 /// Errors of the tool at the marks that were not fitted, in x and y.
-Eigen::Vector2d rms_at_others(const Scan& scan,
-                              const grid::MeasuredGrid& whole,
+Eigen::Vector2d rms_at_others(const Scan& scan, const grid::MeasuredGrid& whole,
                               const grid::CompensationMap& map) {
   const auto truth = grid::length_points(whole);
   EXPECT_TRUE(truth);
@@ -91,7 +88,8 @@ class RealScans : public testing::TestWithParam<Scan> {
   void SetUp() override {
     const std::filesystem::path data = CHAINTRUE_SHARED_DATA;
     if (!std::filesystem::exists(data / "optical_grid" / GetParam().file))
-      GTEST_SKIP() << "../shared/data is not part of a checkout and is not here: " << data / "optical_grid";
+      GTEST_SKIP() << "../shared/data is not part of a checkout and is not here: "
+                   << data / "optical_grid";
   }
 };
 
@@ -103,10 +101,7 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
   ASSERT_TRUE(map) << map.error().sentence();
   const Eigen::Vector2d rms = rms_at_others(GetParam(), whole, *map);
   fmt::print("{}: fitted at {} marks, the others: {:.3f} mm rms in X, {:.3f} mm in Y\n",
-             GetParam().name,
-             few.points.size(),
-             rms.x(),
-             rms.y());
+             GetParam().name, few.points.size(), rms.x(), rms.y());
   // The machine with a length scale for each chain alone reaches 0.21 / 0.40 (D) and 0.43 / 0.62
   // (C).
   EXPECT_LE(rms.x(), GetParam().most_x_rms_mm);
@@ -124,18 +119,14 @@ TEST_P(RealScans, CausesMakeNoMapWorse) {
     ASSERT_TRUE(plain && own);
     const double plain_mm = rms_at_others(GetParam(), whole, plain->map).norm();
     const double own_mm = rms_at_others(GetParam(), whole, own->fit.map).norm();
-    fmt::print("{}, noise {}stated: plain {:.3f} mm, with causes {:.3f} mm\n",
-               GetParam().name,
-               is_stated ? "" : "not ",
-               plain_mm,
-               own_mm);
+    fmt::print("{}, noise {}stated: plain {:.3f} mm, with causes {:.3f} mm\n", GetParam().name,
+               is_stated ? "" : "not ", plain_mm, own_mm);
     // The figures of docs/accuracy.md are to three digits.
     EXPECT_LE(own_mm, plain_mm + 5e-4);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Optical,
-                         RealScans,
+INSTANTIATE_TEST_SUITE_P(Optical, RealScans,
                          testing::Values(Scan{"D",
                                               "D_2018-10-01_upper_half.csv",
                                               {-15, -9, -3, 3, 9, 15},

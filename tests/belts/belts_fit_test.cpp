@@ -28,10 +28,8 @@ AnchorVector off(const BeltsFit& fit, const SimulatedBelts& set) {
 
 class BeltsFitOfLengths : public testing::TestWithParam<BeltLengths> {};
 
-INSTANTIATE_TEST_SUITE_P(Every,
-                         BeltsFitOfLengths,
-                         testing::Values(BeltLengths::belt,
-                                         BeltLengths::belt_and_arm,
+INSTANTIATE_TEST_SUITE_P(Every, BeltsFitOfLengths,
+                         testing::Values(BeltLengths::belt, BeltLengths::belt_and_arm,
                                          BeltLengths::span),
                          [](const auto& tested) { return std::string(name(tested.param)); });
 
@@ -61,7 +59,8 @@ TEST(BeltsFit, TheSpreadDividesByTheChecksAndTheRmsByTheReadings) {
   ASSERT_TRUE(fit->bad.empty());
   EXPECT_EQ(fit->checks, 2 * 81 - 5);
   // One sum of squares with two denominators, to rounding.
-  EXPECT_NEAR(fit->rms_mm * std::sqrt(4.0 * 81), fit->residual_sigma_mm * std::sqrt(2.0 * 81 - 5), 1e-9);
+  EXPECT_NEAR(fit->rms_mm * std::sqrt(4.0 * 81), fit->residual_sigma_mm * std::sqrt(2.0 * 81 - 5),
+              1e-9);
 }
 
 TEST(BeltsFit, InfluencesOnACoordinateAreCompleteAndMirrored) {
@@ -168,8 +167,8 @@ TEST(BeltsFit, ProposesTheBestDistanceForTheScale) {
   for (const bool known : {true, false}) {
     for (const int columns : {3, 9}) {
       SCOPED_TRACE(testing::Message() << "anchors known " << known << ", columns " << columns);
-      const SimulatedBelts set =
-          simulate({.seed = 33, .columns = columns, .rows = columns == 3 ? 2 : 9, .anchors_known = known});
+      const SimulatedBelts set = simulate(
+          {.seed = 33, .columns = columns, .rows = columns == 3 ? 2 : 9, .anchors_known = known});
       const auto fit = fit_belts(set.belts);
       ASSERT_TRUE(fit);
       const auto best = distance_for_scale(set.belts, *fit);
@@ -214,14 +213,18 @@ TEST(BeltsFit, FindsTheScaleFromTapesBetweenAnchorsPointsAndHoles) {
   const model::BedPoint right{600.0, -200.0};
   const auto scale_of = [&](BeltEnd from, BeltEnd to, model::FramePoint p, model::FramePoint q) {
     MeasuredBelts taped = exact.belts;
-    taped.distances.push_back({from, to, kTrueScale * std::hypot(p.x_mm - q.x_mm, p.y_mm - q.y_mm), 1.0});
+    taped.distances.push_back(
+        {from, to, kTrueScale * std::hypot(p.x_mm - q.x_mm, p.y_mm - q.y_mm), 1.0});
     return fit_belts(taped)->scale->factor;
   };
   // Anchors are found to 1e-4 mm, as without a tape, of a distance of 600 mm at least.
   constexpr double kTolerance = 1e-6;
-  EXPECT_NEAR(scale_of(Belt::tl, Belt::tr, {a.tl.x_mm, a.tl.y_mm}, {a.tr.x_mm, a.tr.y_mm}), kTrueScale, kTolerance);
-  EXPECT_NEAR(scale_of(std::size_t{0}, std::size_t{80}, exact.places[0], exact.places[80]), kTrueScale, kTolerance);
-  EXPECT_NEAR(scale_of(CutHole{left}, CutHole{right}, hole(left), hole(right)), kTrueScale, kTolerance);
+  EXPECT_NEAR(scale_of(Belt::tl, Belt::tr, {a.tl.x_mm, a.tl.y_mm}, {a.tr.x_mm, a.tr.y_mm}),
+              kTrueScale, kTolerance);
+  EXPECT_NEAR(scale_of(std::size_t{0}, std::size_t{80}, exact.places[0], exact.places[80]),
+              kTrueScale, kTolerance);
+  EXPECT_NEAR(scale_of(CutHole{left}, CutHole{right}, hole(left), hole(right)), kTrueScale,
+              kTolerance);
 }
 
 TEST(BeltsFit, AContradictoryTapeDoesNotWidenTheBeltsSigmas) {

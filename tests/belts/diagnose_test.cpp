@@ -24,8 +24,7 @@ using testing::HasSubstr;
 
 constexpr double kPulledNoiseMm = 0.3;
 
-MeasuredBelts measured_in(std::vector<model::AppliedEffect> hidden,
-                          std::uint64_t seed = 1,
+MeasuredBelts measured_in(std::vector<model::AppliedEffect> hidden, std::uint64_t seed = 1,
                           double noise_mm = kPulledNoiseMm) {
   // Wide and high: the usual sizes of all causes are then detectable.
   return testing_support::belts_session({.width_share = 0.7,
@@ -42,15 +41,15 @@ class HiddenCause : public testing::TestWithParam<model::AppliedEffect> {};
 // Three times the usual size for weakly observable causes, so that each is far beyond the noise; an
 // anchor is moved perpendicularly to the belt in the middle: along it a move looks like a skip of teeth.
 INSTANTIATE_TEST_SUITE_P(
-    Every,
-    HiddenCause,
+    Every, HiddenCause,
     testing::Values(
         model::AppliedEffect{"belt_stretch", "", {{"elongation", 0.004}}},
         model::AppliedEffect{"belt_scale", "tl", {{"scale", 0.003}}},
         model::AppliedEffect{"belt_scale", "br", {{"scale", -0.003}}},
         model::AppliedEffect{"anchor_height", "tr", {{"offset_mm", 60.0}}},
-        model::AppliedEffect{
-            "anchor_moved", "bl", {{"distance_mm", 7.0}, {"direction_rad", 2.1}, {"first_visit", 37.0}}},
+        model::AppliedEffect{"anchor_moved",
+                             "bl",
+                             {{"distance_mm", 7.0}, {"direction_rad", 2.1}, {"first_visit", 37.0}}},
         model::AppliedEffect{"tooth_skip", "br", {{"teeth", 1.0}, {"first_visit", 37.0}}},
         model::AppliedEffect{"zero_shift", "tr", {{"shift_mm", 3.0}, {"first_visit", 37.0}}},
         model::AppliedEffect{"drift", "tl", {{"rate_mm_per_visit", 0.06}}},
@@ -146,8 +145,7 @@ TEST(BeltsDiagnosis, UntestableCausesNameTheMeasurementThatTestsThem) {
 }
 
 TEST(BeltsDiagnosis, TheFileHoldsTheWholeDiagnosis) {
-  const Diagnosis found =
-      diagnosed(measured_in({{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}));
+  const Diagnosis found = diagnosed(measured_in({{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}));
   const std::string text = files::write_diagnosis(found);
   EXPECT_THAT(text, HasSubstr("\"observations\": \"belts\""));
   const Diagnosis again = files::parse_diagnosis(text, "belts.json");

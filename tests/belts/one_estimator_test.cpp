@@ -62,20 +62,17 @@ std::vector<NamedSet> simulated_sets() {
   taped.belts.distances.push_back(
       tape(std::size_t{20}, std::size_t{60}, 1.004 * apart(20, 60) - 0.6, 0.8));
   taped.belts.distances.push_back(
-      tape(model::Belt::bl,
-           std::size_t{60},
-           1.004 * std::hypot(places[60].at.x_mm, places[60].at.y_mm) + 0.3,
-           1.0));
+      tape(model::Belt::bl, std::size_t{60},
+           1.004 * std::hypot(places[60].at.x_mm, places[60].at.y_mm) + 0.3, 1.0));
   sets.push_back(taped);
   return sets;
 }
 
 std::vector<NamedSet> every_set() {
   std::vector<NamedSet> all = simulated_sets();
-  all.push_back({"thirty_one",
-                 files::read(files::parse_belts,
-                             std::string(CHAINTRUE_FIXTURES) + "/belts/lower_belts_short.json")
-                     .belts});
+  all.push_back({"thirty_one", files::read(files::parse_belts, std::string(CHAINTRUE_FIXTURES) +
+                                                                   "/belts/lower_belts_short.json")
+                                   .belts});
   for (const auto& [file, runs] : {std::pair("concrete_anchors.txt", 1),
                                    {"frame_rebuilt.txt", 1},
                                    {"mini_frame.txt", 1},
@@ -214,8 +211,7 @@ TEST(OneEstimator, RejectsPlacesWithARejectedReading) {
     for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
       // Twelve readings fewer of 324, and weights of a few: 0.2 of a sigma in both sets.
       EXPECT_NEAR(estimate->mechanism->values()[static_cast<Eigen::Index>(i)],
-                  fit->coordinates[i].fitted_mm,
-                  0.5 * fit->coordinates[i].sigma_mm);
+                  fit->coordinates[i].fitted_mm, 0.5 * fit->coordinates[i].sigma_mm);
     }
   }
 }

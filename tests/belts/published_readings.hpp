@@ -13,7 +13,8 @@
 namespace chaintrue::testing_support {
 
 /// Empty without the shared data.
-inline std::optional<grid::files::Maslow4Import> published_readings(const std::string& file, int run = 1) {
+inline std::optional<grid::files::Maslow4Import> published_readings(const std::string& file,
+                                                                    int run = 1) {
   const auto path = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / file;
   if (!std::filesystem::exists(path)) return std::nullopt;
   grid::files::Maslow4Options options;

@@ -32,8 +32,7 @@ class RealBelts : public testing::TestWithParam<RealSet> {
   files::Maslow4Import import_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets,
-                         RealBelts,
+INSTANTIATE_TEST_SUITE_P(Sets, RealBelts,
                          testing::Values(RealSet{"concrete", "concrete_anchors.txt", 99, 0.65},
                                          RealSet{"rebuilt", "frame_rebuilt.txt", 99, 0.88},
                                          RealSet{"mini", "mini_frame.txt", 46, 0.85},

@@ -17,19 +17,20 @@ using testing::Not;
 
 /// Belts that stretch by 0.4 %, and the diagonal of the true frame.
 MeasuredBelts stretched_and_taped() {
-  MeasuredBelts belts = testing_support::belts_session(
-      {.width_share = 0.7,
-       .height_share = 0.6,
-       .noise_mm = 0.3,
-       .hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}},
-       .seed = 7});
+  MeasuredBelts belts =
+      testing_support::belts_session({.width_share = 0.7,
+                                      .height_share = 0.6,
+                                      .noise_mm = 0.3,
+                                      .hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}},
+                                      .seed = 7});
   const auto anchors = testing_support::truth().anchors;
   const model::Anchor& from = anchors.tl;
   const model::Anchor& to = anchors.br;
-  belts.distances = {{.from = Belt::tl,
-                      .to = Belt::br,
-                      .distance_mm = std::hypot(from.x_mm - to.x_mm, from.y_mm - to.y_mm, from.z_mm - to.z_mm),
-                      .sigma_mm = 1.0}};
+  belts.distances = {
+      {.from = Belt::tl,
+       .to = Belt::br,
+       .distance_mm = std::hypot(from.x_mm - to.x_mm, from.y_mm - to.y_mm, from.z_mm - to.z_mm),
+       .sigma_mm = 1.0}};
   return belts;
 }
 

@@ -15,8 +15,7 @@ using diagnosis::Verdict;
 /// Pull of the second pass over the first.
 constexpr double kHarder = 1.6;
 
-MeasuredBelts measured(std::vector<model::AppliedEffect> hidden,
-                       std::vector<double> pulls,
+MeasuredBelts measured(std::vector<model::AppliedEffect> hidden, std::vector<double> pulls,
                        double noise_mm = 0.5) {
   return testing_support::belts_session({.columns = 7,
                                          .rows = 6,
@@ -54,14 +53,14 @@ TEST(TwoPulls, ResolveWhatOnePullLeavesOpen) {
   ASSERT_EQ(two.verdict, Verdict::named) << two.sentence;
   EXPECT_EQ(two.causes.front().cause.effect->id, "anchor_flex") << two.sentence;
   // Sizes are reported at the least pull, to three of their sigmas.
-  EXPECT_NEAR(two.causes.front().parameters.front().value,
-              2.0,
+  EXPECT_NEAR(two.causes.front().parameters.front().value, 2.0,
               3.0 * two.causes.front().parameters.front().sigma);
 }
 
 TEST(TwoPulls, ProposesNoThirdPass) {
-  const Diagnosis two = diagnosis::diagnose(
-      measured({{"anchor_flex", "", {{"give_mm", 0.2}}}}, {1.0, kHarder})).value();
+  const Diagnosis two =
+      diagnosis::diagnose(measured({{"anchor_flex", "", {{"give_mm", 0.2}}}}, {1.0, kHarder}))
+          .value();
   EXPECT_FALSE(two.belts->second_pass);
 }
 

@@ -9,8 +9,9 @@
 namespace chaintrue::testing_support {
 namespace {
 
-constexpr std::string_view kVerbs[] = {"from", "file", "$", "exit", "exists", "absent", "same", "has",
-                                       "lacks", "lines", "says", "problem", "is", "near", "above", "below"};
+constexpr std::string_view kVerbs[] = {"from", "file", "$",     "exit",  "exists", "absent",
+                                       "same", "has",  "lacks", "lines", "says",   "problem",
+                                       "is",   "near", "above", "below"};
 
 }  // namespace
 
@@ -35,7 +36,8 @@ CaseFile read_cases(const std::filesystem::path& path) {
     } else if (current == nullptr) {
       refuse("no case has begun");
     } else if (verb == "|") {
-      if (current->steps.empty() || current->steps.back().verb != "file") refuse("a line of no file");
+      if (current->steps.empty() || current->steps.back().verb != "file")
+        refuse("a line of no file");
       current->steps.back().text += rest + "\n";
     } else if (std::ranges::find(kVerbs, verb) == std::end(kVerbs)) {
       refuse("no such word: " + verb);

@@ -82,7 +82,8 @@ class Workplace {
       place = std::make_unique<Workplace>(file_);
       place->run(file_.givens.at(name));
     }
-    fs::copy(place->folder_, folder_, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+    fs::copy(place->folder_, folder_,
+             fs::copy_options::recursive | fs::copy_options::copy_symlinks);
   }
 
   void write(const Step& step) const {
@@ -95,11 +96,11 @@ class Workplace {
       GTEST_SKIP() << "there is no shared data at " CHAINTRUE_SHARED_DATA;
     if (line.find("$MPIRUN") != std::string::npos && !fs::exists(CHAINTRUE_MPIRUN))
       GTEST_SKIP() << "MPI was not found (Debian: libopenmpi-dev, openmpi-bin)";
-    const std::string shell =
-        "cd " + folder_.string() +
-        " && export CHAINTRUE_PROBLEM_NAMES=1 F=" CHAINTRUE_FIXTURES " D=" CHAINTRUE_SHARED_DATA
-        " MPIRUN=" CHAINTRUE_MPIRUN " PATH=$(dirname " CHAINTRUE_COMMAND "):$PATH && { " + line +
-        "\n} >.next.out 2>.next.err";
+    const std::string shell = "cd " + folder_.string() +
+                              " && export CHAINTRUE_PROBLEM_NAMES=1 F=" CHAINTRUE_FIXTURES
+                              " D=" CHAINTRUE_SHARED_DATA " MPIRUN=" CHAINTRUE_MPIRUN
+                              " PATH=$(dirname " CHAINTRUE_COMMAND "):$PATH && { " +
+                              line + "\n} >.next.out 2>.next.err";
     const int status = std::system(shell.c_str());
     // The line may read the last one's output.
     for (const char* stream : {"out", "err"})
@@ -139,8 +140,7 @@ class Workplace {
     const std::optional<double> found = number_at(text, key);
     ASSERT_TRUE(found) << text.substr(0, 4000);
     const double value = std::stod(wanted);
-    const double tolerance =
-        verb == "near" ? std::stod(wanted.substr(wanted.find("+-") + 2)) : 0.0;
+    const double tolerance = verb == "near" ? std::stod(wanted.substr(wanted.find("+-") + 2)) : 0.0;
     const bool holds = verb == "above"   ? *found > value
                        : verb == "below" ? *found < value
                                          : std::abs(*found - value) <= tolerance;
@@ -189,13 +189,8 @@ bool register_all() {
   for (const fs::path& path : paths) {
     const CaseFile& file = *files.emplace_back(std::make_unique<CaseFile>(read_cases(path)));
     for (const Case& one : file.cases) {
-      testing::RegisterTest(path.stem().c_str(),
-                            one.name.c_str(),
-                            nullptr,
-                            nullptr,
-                            path.c_str(),
-                            one.line,
-                            [&file, &one] { return new CaseTest(file, one); });
+      testing::RegisterTest(path.stem().c_str(), one.name.c_str(), nullptr, nullptr, path.c_str(),
+                            one.line, [&file, &one] { return new CaseTest(file, one); });
     }
   }
   return true;

@@ -14,7 +14,8 @@
 namespace chaintrue {
 namespace {
 
-constexpr std::size_t kAlmostTooLarge = 15'900'000;  // bytes; files over 16 MiB are refused by their size
+constexpr std::size_t kAlmostTooLarge =
+    15'900'000;  // bytes; files over 16 MiB are refused by their size
 constexpr std::uintmax_t kFarTooLarge = 200'000'000;
 
 using Line = std::function<std::string(std::size_t)>;
@@ -29,23 +30,28 @@ struct Flood {
 };
 
 const std::vector<Flood>& floods() {
-  static const std::string kMachine = R"({"file_type": "chaintrue_machine", "format_version": "1.0")";
+  static const std::string kMachine =
+      R"({"file_type": "chaintrue_machine", "format_version": "1.0")";
   static const std::vector<Flood> all = {
       {"marks.csv", "x_mm,y_mm,left_mm,right_mm\n", same("1.5,2.5,1700.25,1700.5\n"), "fit"},
-      {"places.csv", "from_x_mm,from_y_mm,to_x_mm,to_y_mm,distance_mm\n", same("-300,0,300,0,604\n"), "fit"},
+      {"places.csv", "from_x_mm,from_y_mm,to_x_mm,to_y_mm,distance_mm\n",
+       same("-300,0,300,0,604\n"), "fit"},
       {"points.json", R"({"file_type": "chaintrue_grid", "format_version": "1.0", "points": [{})",
        same(",{\"x_mm\": 1, \"y_mm\": 2, \"left_mm\": 1700, \"right_mm\": 1700}\n"), "fit"},
-      {"keys.json", kMachine, [](std::size_t i) { return ",\n\"k" + std::to_string(i) + "\": 1"; }, "fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json --machine"},
+      {"keys.json", kMachine, [](std::size_t i) { return ",\n\"k" + std::to_string(i) + "\": 1"; },
+       "fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json --machine"},
       {"twice.ini", "[Maslow Settings]\n", same("bedwidth = 2438.4\n"), "import groundcontrol"},
-      {"keys.ini", "[Maslow Settings]\n", [](std::size_t i) { return "k" + std::to_string(i) + " = 1\n"; },
-       "import groundcontrol"},
+      {"keys.ini", "[Maslow Settings]\n",
+       [](std::size_t i) { return "k" + std::to_string(i) + " = 1\n"; }, "import groundcontrol"},
       {"names.h", "#define POLARGRAPH\n#define X_BED_SIZE A0\n",
-       [](std::size_t i) { return "#define A" + std::to_string(i) + " A" + std::to_string(i + 1) + "+1\n"; },
+       [](std::size_t i) {
+         return "#define A" + std::to_string(i) + " A" + std::to_string(i + 1) + "+1\n";
+       },
        "import plotter"},
       {"deep.h", "#define POLARGRAPH\n", same("#if A\n#define B\n"), "import plotter"},
       {"long.h", "#define POLARGRAPH\n#define X_BED_SIZE 1\\\n", same("+1\\\n"), "import plotter"},
-      {"keys.yaml", "kinematics:\n  WallPlotter:\n", [](std::size_t i) { return "    k" + std::to_string(i) + ": 1\n"; },
-       "import plotter"},
+      {"keys.yaml", "kinematics:\n  WallPlotter:\n",
+       [](std::size_t i) { return "    k" + std::to_string(i) + ": 1\n"; }, "import plotter"},
       {"run.log", "", same("[MSG:INFO: hello]\n"), "import maslow4"},
   };
   return all;
@@ -60,14 +66,16 @@ class Limits : public testing_support::CommandFixture {
     ASSERT_GE(child, 0);
     if (child == 0) {
       ::dup2(::open((folder_ / "said").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-      const std::string line = "cd " + folder_.string() + " && exec " CHAINTRUE_COMMAND " " + command + " -o out.json";
+      const std::string line =
+          "cd " + folder_.string() + " && exec " CHAINTRUE_COMMAND " " + command + " -o out.json";
       ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
       ::_exit(127);
     }
     int status = 0;
     rusage used{};
     ASSERT_EQ(::wait4(child, &status, 0, &used), child);
-    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 3) << testing_support::content_of(folder_ / "said");
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 3)
+        << testing_support::content_of(folder_ / "said");
     EXPECT_FALSE(exists("out.json"));
     constexpr std::uintmax_t kMostSaid = 4000;  // bytes: a page of the terminal
     EXPECT_LT(std::filesystem::file_size(folder_ / "said"), kMostSaid);
@@ -80,7 +88,9 @@ class Limits : public testing_support::CommandFixture {
     constexpr double kMostSeconds = 2.0;
 #endif
     EXPECT_LT(used.ru_maxrss, kMostKb);
-    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
     EXPECT_LT(seconds(used.ru_utime) + seconds(used.ru_stime), kMostSeconds);
 #endif
   }

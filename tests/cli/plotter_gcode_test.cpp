@@ -63,8 +63,8 @@ class HiddenPlotter {
     set.pin_spacing_mm = kSpacingMm;
     const auto counted = model::paid_out(model::PlotterFirmware::marlin, set, {x_mm, y_mm});
     EXPECT_TRUE(counted);
-    return generator::lowest_pose(
-        plotter_, counted->left_mm - 6.0, (counted->right_mm - 3.0) / 1.0015);
+    return generator::lowest_pose(plotter_, counted->left_mm - 6.0,
+                                  (counted->right_mm - 3.0) / 1.0015);
   }
 
  private:
@@ -141,11 +141,8 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
       done("gcode compensate square.gcode --map found.json -o true.gcode" + kSteep);
   EXPECT_THAT(made.err, HasSubstr("Expect cuts within about 0."));
   const std::string compensated = content_of(folder_ / "true.gcode");
-  EXPECT_THAT(compensated,
-              AllOf(HasSubstr(";compensated by chaintrue"),
-                    HasSubstr("\nG21\nG90\n"),
-                    HasSubstr("M280 P0 S30\n"),
-                    Not(HasSubstr("("))));
+  EXPECT_THAT(compensated, AllOf(HasSubstr(";compensated by chaintrue"), HasSubstr("\nG21\nG90\n"),
+                                 HasSubstr("M280 P0 S30\n"), Not(HasSubstr("("))));
   // Corners stand where the pen goes up or down and where the direction turns: of each side the places
   // between lie on the line of its ends.
   std::vector<std::array<double, 2>> path;
@@ -165,9 +162,8 @@ TEST_F(PlotterGcode, ACompensatedSquareIsSquareAndItsLinesAreStraight) {
     found.push_back(a);
     for (std::size_t i = turns[side]; i < turns[side + 1]; ++i) {
       bow = std::max(
-          bow,
-          std::abs((b[0] - a[0]) * (path[i][1] - a[1]) - (b[1] - a[1]) * (path[i][0] - a[0])) /
-              apart(a, b));
+          bow, std::abs((b[0] - a[0]) * (path[i][1] - a[1]) - (b[1] - a[1]) * (path[i][0] - a[0])) /
+                   apart(a, b));
     }
   }
   // The ruler's 0.3 mm on 24 measures give about this error.

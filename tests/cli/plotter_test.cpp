@@ -80,9 +80,7 @@ class HiddenMural {
 Json filled_in(const Json& drawing, const Typed& typed, double noise_mm, std::uint64_t seed) {
   const HiddenMural mural;
   return testing_support::ruled(
-      drawing,
-      [&](double x_mm, double y_mm) { return mural.pen(typed, x_mm, y_mm); },
-      noise_mm,
+      drawing, [&](double x_mm, double y_mm) { return mural.pen(typed, x_mm, y_mm); }, noise_mm,
       seed);
 }
 
@@ -124,9 +122,8 @@ TEST_F(Plotter, DiagnosisAndNewSettingsStraightenAMural) {
     const Json drawing = first_drawing(seed);
     EXPECT_GT(largest_bow(drawing), 8.0);
     const Outcome fitted = fit(drawing);
-    EXPECT_THAT(fitted.err,
-                AllOf(HasSubstr("the zero of the left cord, by +2"),
-                      HasSubstr("the zero of the right cord, by +2")));
+    EXPECT_THAT(fitted.err, AllOf(HasSubstr("the zero of the left cord, by +2"),
+                                  HasSubstr("the zero of the right cord, by +2")));
     const Outcome lines = done("export plotter found.json");
     const Typed typed{after(lines.out, "top distance: "),
                       after(lines.out, "effective pulley diameter: "),
@@ -135,8 +132,7 @@ TEST_F(Plotter, DiagnosisAndNewSettingsStraightenAMural) {
     done("start found.json second" + std::to_string(seed));
     const Json page =
         Json::parse(content_of(folder_ / ("second" + std::to_string(seed)) / "drawing.json"));
-    EXPECT_NEAR(page.at("set").at("homed_offset_mm").get<double>(),
-                typed.homed_offset_mm,
+    EXPECT_NEAR(page.at("set").at("homed_offset_mm").get<double>(), typed.homed_offset_mm,
                 0.005);  // as printed
     const Json next = filled_in(page, typed, 0.0, seed);
     EXPECT_LT(largest_bow(next), 1.0);

@@ -135,8 +135,8 @@ TEST(LongWork, PlanAndSimulationReportTheirShare) {
   EXPECT_GT(planned.steps[1].share, 0.5);
   std::vector<model::Visit> visits(100);
   for (int i = 0; i < 100; ++i) visits[static_cast<std::size_t>(i)].order = i;
-  (void)grid::synthetic::read_places(
-      model::Machine{}, {}, visits, model::Model::elastic, read.progress());
+  (void)grid::synthetic::read_places(model::Machine{}, {}, visits, model::Model::elastic,
+                                     read.progress());
   EXPECT_GT(read.steps[1].share, 0.5);
 }
 

@@ -19,10 +19,8 @@ namespace chaintrue::testing_support {
 using PenOf = std::function<generator::PenAtRest(double x_mm, double y_mm)>;
 
 /// The drawing with every null filled in, to a tenth of a millimetre.
-inline nlohmann::ordered_json ruled(nlohmann::ordered_json drawing,
-                                    const PenOf& pen,
-                                    double noise_mm,
-                                    std::uint64_t seed) {
+inline nlohmann::ordered_json ruled(nlohmann::ordered_json drawing, const PenOf& pen,
+                                    double noise_mm, std::uint64_t seed) {
   generator::Dice dice(seed, "ruler");
   const auto at = [&](const std::string& name) {
     for (const auto& cross : drawing.at("crosses")) {
@@ -36,7 +34,8 @@ inline nlohmann::ordered_json ruled(nlohmann::ordered_json drawing,
     double true_mm = length;
     if (measure.at("kind") == "bow") {
       const auto m = at(measure.at("middle"));
-      true_mm = ((b.x_mm - a.x_mm) * (m.y_mm - a.y_mm) - (b.y_mm - a.y_mm) * (m.x_mm - a.x_mm)) / length;
+      true_mm =
+          ((b.x_mm - a.x_mm) * (m.y_mm - a.y_mm) - (b.y_mm - a.y_mm) * (m.x_mm - a.x_mm)) / length;
     }
     measure["value_mm"] = std::round(10.0 * (true_mm + noise_mm * dice.normal())) / 10.0;
   }

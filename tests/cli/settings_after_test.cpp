@@ -110,16 +110,11 @@ class SettingsAfter : public testing_support::CommandFixture,
     for (const BedPoint& mark : raster(7, 4, 1100.0, 500.0)) {
       const BedPoint went = reached(kTyped, mark, mark);
       const model::ChainLengths read = model::ReadingModel(true_machine()).at(mark)->lengths;
-      text += commanded ? fmt::format("{},{},{:.3f},{:.3f}\n",
-                                      mark.x_mm,
-                                      mark.y_mm,
-                                      went.x_mm + off(0.3),
-                                      went.y_mm + off(0.3))
-                        : fmt::format("{},{},{:.3f},{:.3f}\n",
-                                      mark.x_mm + off(0.3),
-                                      mark.y_mm + off(0.3),
-                                      read.left_mm + off(0.2),
-                                      read.right_mm + off(0.2));
+      text += commanded
+                  ? fmt::format("{},{},{:.3f},{:.3f}\n", mark.x_mm, mark.y_mm, went.x_mm + off(0.3),
+                                went.y_mm + off(0.3))
+                  : fmt::format("{},{},{:.3f},{:.3f}\n", mark.x_mm + off(0.3), mark.y_mm + off(0.3),
+                                read.left_mm + off(0.2), read.right_mm + off(0.2));
     }
     return text;
   }
@@ -161,8 +156,7 @@ TEST_P(SettingsAfter, OnlyTheNewMapIsRight) {
   EXPECT_LT(after, 0.5 * typed_alone);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways,
-                         SettingsAfter,
+INSTANTIATE_TEST_SUITE_P(Ways, SettingsAfter,
                          testing::Values(Measured::commanded_marks, Measured::chain_lengths),
                          [](const auto& way) {
                            return way.param == Measured::commanded_marks ? "CommandedMarks"

@@ -22,8 +22,7 @@ int main(int count, char** arguments) try {
   // One place, or many: each has its answer, or its reason.
   const auto there = map->query({100.0, -200.0});
   if (!there) return fmt::print(stderr, "{}\n", there.error().sentence()), 1;
-  fmt::print("at (100, -200): left {:.3f} mm, right {:.3f} mm\n",
-             there->lengths.left_mm,
+  fmt::print("at (100, -200): left {:.3f} mm, right {:.3f} mm\n", there->lengths.left_mm,
              there->lengths.right_mm);
   const std::vector<chaintrue::model::MarkPoint> path = {{0.0, 0.0}, {50.0, 0.0}, {1e4, 0.0}};
   std::vector<grid::MapAnswerOrFailure> answers(path.size());

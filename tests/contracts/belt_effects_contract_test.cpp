@@ -15,10 +15,8 @@ using effects::Effect;
 using effects::EffectSide;
 using testing_support::stated;
 
-double read(const BeltMachine& machine,
-            const std::vector<effects::ActingEffect>& effects,
-            const BeltVisit& visit,
-            FramePoint place) {
+double read(const BeltMachine& machine, const std::vector<effects::ActingEffect>& effects,
+            const BeltVisit& visit, FramePoint place) {
   return read_belt(machine, effects, visit, place).value().value;
 }
 
@@ -34,11 +32,11 @@ TEST(BeltEffects, EachEquationAgreesWithHandCalculation) {
   const BeltMachine machine = stated(BeltLengths::belt);
   const FramePoint place{900.0, 600.0};
   const double bl = reading_at(machine, Belt::bl, place)->length_mm;
-  const auto added =
-      [&](const Effect& effect, EffectSide side, std::vector<double> values, BeltVisit visit) {
-        return read(machine, {{&effect, side, std::move(values)}}, visit, place) -
-               reading_at(machine, visit.belt, place)->length_mm;
-      };
+  const auto added = [&](const Effect& effect, EffectSide side, std::vector<double> values,
+                         BeltVisit visit) {
+    return read(machine, {{&effect, side, std::move(values)}}, visit, place) -
+           reading_at(machine, visit.belt, place)->length_mm;
+  };
   const BeltVisit pulled{Belt::bl, kLowerBeltsPulled, 12};
   const BeltVisit held{Belt::bl, {}, 12};
   const BeltVisit harder{Belt::bl, kLowerBeltsPulled, 12, 1.6};
@@ -60,12 +58,11 @@ TEST(BeltEffects, EachEquationAgreesWithHandCalculation) {
   EXPECT_EQ(added(zero_shift, EffectSide::bl, {-3.7, 13.0}, held), 0.0);
   EXPECT_NEAR(added(drift, EffectSide::all, {0.05}, held), 0.6, 1e-11);
   const double level = std::hypot(900.0, 600.0) - 153.4;
-  EXPECT_NEAR(
-      added(anchor_height, EffectSide::bl, {40.0}, held), std::hypot(level, 74.0) - bl, 1e-11);
+  EXPECT_NEAR(added(anchor_height, EffectSide::bl, {40.0}, held), std::hypot(level, 74.0) - bl,
+              1e-11);
   const double moved = std::hypot(900.0 - 3.0, 600.0) - 153.4;
   EXPECT_NEAR(added(anchor_moved, EffectSide::bl, {3.0, 0.0, 12.0}, held),
-              std::hypot(moved, 34.0) - bl,
-              1e-11);
+              std::hypot(moved, 34.0) - bl, 1e-11);
   EXPECT_EQ(added(anchor_moved, EffectSide::bl, {3.0, 0.0, 13.0}, held), 0.0);
 }
 
@@ -78,11 +75,9 @@ TEST(BeltEffects, HoldingBeltsStretchByTheirTension) {
     const double plain = reading_at(machine, belt, place)->length_mm;
     // Rounding of 3 m.
     EXPECT_NEAR(read(machine, {{&belt_stretch, EffectSide::none, {0.002}}}, visit, place),
-                plain - 0.002 * tension[belt].value * plain,
-                1e-11);
+                plain - 0.002 * tension[belt].value * plain, 1e-11);
     EXPECT_NEAR(read(machine, {{&anchor_flex, EffectSide::none, {1.5}}}, visit, place),
-                plain - 1.5 * tension[belt].value,
-                1e-11);
+                plain - 1.5 * tension[belt].value, 1e-11);
   }
 }
 
@@ -93,18 +88,16 @@ TEST(BeltEffects, ALevelPrintRemovesTheConfiguredHeights) {
   const double count = std::hypot(std::hypot(900.0, 600.0) - 153.4, 34.0 + 40.0);
   // Rounding of 1 m.
   EXPECT_NEAR(read(machine, {{&anchor_height, EffectSide::bl, {40.0}}}, visit, place),
-              std::sqrt(count * count - 34.0 * 34.0) + 153.4,
-              1e-11);
+              std::sqrt(count * count - 34.0 * 34.0) + 153.4, 1e-11);
 }
 
 TEST(BeltEffects, ReportImpossibleValues) {
   EXPECT_TRUE(
       effects::problems_in(belt_effects(), {{"belt_zero", "all", {{"offset_mm", 2.0}}}}).empty());
-  const auto problems =
-      effects::problems_in(belt_effects(),
-                           {{"belt_shrink", "", {}},
-                            {"belt_scale", "left", {{"scale", 0.2}}},
-                            {"tooth_skip", "tl", {{"teeth", 1.5}, {"links", 1.0}}}});
+  const auto problems = effects::problems_in(
+      belt_effects(), {{"belt_shrink", "", {}},
+                       {"belt_scale", "left", {{"scale", 0.2}}},
+                       {"tooth_skip", "tl", {{"teeth", 1.5}, {"links", 1.0}}}});
   ASSERT_EQ(problems.size(), 5U);
   EXPECT_EQ(problems[0].parameter, "/0/effect");
   EXPECT_EQ(problems[1].parameter, "/1/side");

@@ -61,9 +61,7 @@ class BeltKinematicsLaws : public testing::TestWithParam<BeltController> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Every,
-                         BeltKinematicsLaws,
-                         testing::ValuesIn(belt_controllers()),
+INSTANTIATE_TEST_SUITE_P(Every, BeltKinematicsLaws, testing::ValuesIn(belt_controllers()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(BeltKinematicsLaws, TheUpperTwoLengthsOfAPlaceLeadBackToIt) {

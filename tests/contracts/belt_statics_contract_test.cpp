@@ -34,16 +34,13 @@ PerBelt<double> values_of(const PerBelt<AnchorNumber>& tension) {
   return {tension.tl.value, tension.tr.value, tension.bl.value, tension.br.value};
 }
 
-PerBelt<double> tension_values(const BeltMachine& machine,
-                               const PerBelt<bool>& pulled,
-                               double pull,
+PerBelt<double> tension_values(const BeltMachine& machine, const PerBelt<bool>& pulled, double pull,
                                FramePoint place) {
   return values_of(tensions_of(machine, pulled, pull, place));
 }
 
 /// Sum of the level forces of belts and weight.
-Eigen::Vector2d force(const BeltMachine& machine,
-                      const PerBelt<double>& tension,
+Eigen::Vector2d force(const BeltMachine& machine, const PerBelt<double>& tension,
                       FramePoint place) {
   Eigen::Vector2d sum(0.0, machine.orientation == Orientation::upright ? -kWeightOverPull : 0.0);
   for (const Belt belt : kBelts) {
@@ -142,8 +139,7 @@ TEST(BeltTensions, DerivativesAreDifferences) {
             for (const Belt belt : kBelts) {
               // A tension changes by 1e-3 a mm; rounding of differences, 1e-16 over the step.
               EXPECT_NEAR(by_anchor(at[belt], anchor)[by_x ? 0 : 1],
-                          (more[belt] - less[belt]) / (2.0 * kStepMm),
-                          1e-9);
+                          (more[belt] - less[belt]) / (2.0 * kStepMm), 1e-9);
             }
           }
         }

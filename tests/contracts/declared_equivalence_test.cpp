@@ -38,8 +38,8 @@ TEST(DeclaredEquivalence, HasTheCataloguesNumbers) {
     EXPECT_EQ(own->needs, built_in.needs);
     EXPECT_EQ(own->at_one_visit, built_in.at_one_visit);
     EXPECT_EQ(own->remedy_kind, built_in.remedy_kind);
-    EXPECT_TRUE(std::equal(
-        own->sides.begin(), own->sides.end(), built_in.sides.begin(), built_in.sides.end()));
+    EXPECT_TRUE(std::equal(own->sides.begin(), own->sides.end(), built_in.sides.begin(),
+                           built_in.sides.end()));
     ASSERT_EQ(own->parameters.size(), built_in.parameters.size());
     for (std::size_t i = 0; i < own->parameters.size(); ++i) {
       const EffectParameter& a = own->parameters[i];

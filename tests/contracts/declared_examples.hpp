@@ -31,10 +31,9 @@ inline const Effect& uses_everything() {
 }
 
 inline const std::vector<const Effect*>& declared_examples() {
-  static const std::vector<const Effect*> examples = {&declared_by("chain_rubs.json"),
-                                                      &declared_by("creep_that_saturates.json"),
-                                                      &declared_by("second_harmonic.json"),
-                                                      &uses_everything()};
+  static const std::vector<const Effect*> examples = {
+      &declared_by("chain_rubs.json"), &declared_by("creep_that_saturates.json"),
+      &declared_by("second_harmonic.json"), &uses_everything()};
   return examples;
 }
 

@@ -208,8 +208,8 @@ TEST_P(EffectContract, AddsToOthersToFirstOrder) {
     SCOPED_TRACE(::testing::PrintToString(other));
     const auto at_share = [&](double share) {
       const AppliedEffect a = with(scaled(effect(), nominal_values(effect()), share));
-      const AppliedEffect b = applied(
-          *other.effect, other.side, scaled(*other.effect, nominal_values(*other.effect), share));
+      const AppliedEffect b = applied(*other.effect, other.side,
+                                      scaled(*other.effect, nominal_values(*other.effect), share));
       const std::vector<double> alone_a = seen_with({a});
       const std::vector<double> alone_b = seen_with({b});
       const std::vector<double> together = seen_with({a, b});
@@ -238,14 +238,10 @@ TEST_P(EffectContract, DoesNotDependOnTheOrderInTheFile) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue,
-                         EffectContract,
-                         ::testing::ValuesIn(cases_of(catalogue())),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EffectContract, ::testing::ValuesIn(cases_of(catalogue())),
                          case_name);
-INSTANTIATE_TEST_SUITE_P(Declared,
-                         EffectContract,
-                         ::testing::ValuesIn(cases_of(declared_examples())),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(Declared, EffectContract,
+                         ::testing::ValuesIn(cases_of(declared_examples())), case_name);
 
 }  // namespace
 }  // namespace chaintrue::model::effects

@@ -36,13 +36,11 @@ EquilibriumParameters classic(Feed feed, Attachment attachment = Ring{}) {
 
 std::vector<Kind> kinds() {
   std::vector<Kind> all;
-  const std::pair<Model, std::string> ring_models[] = {{Model::straight, "straight"},
-                                                       {Model::wrap, "wrap"},
-                                                       {Model::firmware, "firmware"},
-                                                       {Model::one_shot, "one_shot"},
-                                                       {Model::elastic, "elastic"},
-                                                       {Model::inextensible, "inextensible"},
-                                                       {Model::elastic_3d, "elastic_3d"}};
+  const std::pair<Model, std::string> ring_models[] = {
+      {Model::straight, "straight"},    {Model::wrap, "wrap"},
+      {Model::firmware, "firmware"},    {Model::one_shot, "one_shot"},
+      {Model::elastic, "elastic"},      {Model::inextensible, "inextensible"},
+      {Model::elastic_3d, "elastic_3d"}};
   for (const Feed feed : {Feed::over_top, Feed::off_bottom}) {
     const std::string way = feed == Feed::over_top ? "_over_top" : "_off_bottom";
     for (const auto& [model, name] : ring_models) {
@@ -80,9 +78,8 @@ class KinematicsLaws : public testing::TestWithParam<Kind> {
       make_kinematics(GetParam().parameters, GetParam().model);
 };
 
-INSTANTIATE_TEST_SUITE_P(Every, KinematicsLaws, testing::ValuesIn(kinds()), [](const auto& kind) {
-  return kind.param.name;
-});
+INSTANTIATE_TEST_SUITE_P(Every, KinematicsLaws, testing::ValuesIn(kinds()),
+                         [](const auto& kind) { return kind.param.name; });
 
 Eigen::Vector2d vector(ChainLengths l) { return {l.left_mm, l.right_mm}; }
 
@@ -141,28 +138,18 @@ std::vector<Knob> knobs() {
   return {
       {Parameter::motor_left_x_mm, "motor_left_x_mm", 4.0, motor(Side::left, &MotorPosition::x_mm)},
       {Parameter::motor_left_y_mm, "motor_left_y_mm", 4.0, motor(Side::left, &MotorPosition::y_mm)},
-      {Parameter::motor_right_x_mm,
-       "motor_right_x_mm",
-       4.0,
+      {Parameter::motor_right_x_mm, "motor_right_x_mm", 4.0,
        motor(Side::right, &MotorPosition::x_mm)},
-      {Parameter::motor_right_y_mm,
-       "motor_right_y_mm",
-       4.0,
+      {Parameter::motor_right_y_mm, "motor_right_y_mm", 4.0,
        motor(Side::right, &MotorPosition::y_mm)},
-      {Parameter::ring_radius_mm,
-       "ring_radius_mm",
-       4.0,
+      {Parameter::ring_radius_mm, "ring_radius_mm", 4.0,
        [](P& p) -> double& { return std::get<Ring>(p.attachment).radius_mm; }},
       {Parameter::sprocket_radius_mm, "sprocket_radius_mm", 1.0, &P::sprocket_radius_mm},
       {Parameter::sled_weight_n, "sled_weight_n", 1.0, &P::sled_weight_n},
       {Parameter::chain_weight_n_per_mm, "chain_weight_n_per_mm", 1e-4, &P::chain_weight_n_per_mm},
-      {Parameter::chain_compliance_per_n,
-       "chain_compliance_per_n",
-       1e-6,
+      {Parameter::chain_compliance_per_n, "chain_compliance_per_n", 1e-6,
        &P::chain_compliance_per_n},
-      {Parameter::beam_flexibility_mm_per_n,
-       "beam_flexibility_mm_per_n",
-       0.002,
+      {Parameter::beam_flexibility_mm_per_n, "beam_flexibility_mm_per_n", 0.002,
        &P::beam_flexibility_mm_per_n},
       {Parameter::side_force_n, "side_force_n", 1.0, &P::side_force_n},
   };
@@ -215,8 +202,7 @@ TEST_P(KinematicsLaws, MirroredMachineSwapsTheChains) {
     EXPECT_NEAR(a.lengths.left_mm, b.lengths.right_mm, kTolerance);
     EXPECT_NEAR(a.lengths.right_mm, b.lengths.left_mm, kTolerance);
     EXPECT_NEAR(a.sled_rotation_rad, -b.sled_rotation_rad, 1e-13);
-    EXPECT_NEAR(a.chains.left.horizontal_n,
-                b.chains.right.horizontal_n,
+    EXPECT_NEAR(a.chains.left.horizontal_n, b.chains.right.horizontal_n,
                 1e-12 * parameters().sled_weight_n);
   });
 }
@@ -233,8 +219,7 @@ TEST_P(KinematicsLaws, ForcesScaledTogetherLeaveTheLengths) {
     over_the_bed(kLawSeed + 4, 30, [&](BedPoint p) {
       const Pose a = kinematics_->inverse(p).value(), b = other->inverse(p).value();
       EXPECT_LE((vector(a.lengths) - vector(b.lengths)).norm(), 1e-11);  // rounding of the solution
-      EXPECT_NEAR(b.chains.left.tension_at_sprocket_n,
-                  factor * a.chains.left.tension_at_sprocket_n,
+      EXPECT_NEAR(b.chains.left.tension_at_sprocket_n, factor * a.chains.left.tension_at_sprocket_n,
                   1e-11 * b.chains.left.tension_at_sprocket_n);
     });
   }
@@ -289,12 +274,8 @@ TEST_P(KinematicsLaws, TheSolutionDoesNotDependOnTheStart) {
 // times the curvature of the lengths, at most 1 / (distance to a sprocket).
 TEST_P(KinematicsLaws, LengthsAreContinuousAlongPaths) {
   const bool brackets = std::holds_alternative<Brackets>(parameters().attachment);
-  const BedPoint corners[] = {{-1219.2, -609.6},
-                              {1219.2, 609.6},
-                              {-1219.2, 609.6},
-                              {1219.2, -609.6},
-                              {0.0, -609.6},
-                              {0.0, 609.6}};
+  const BedPoint corners[] = {{-1219.2, -609.6}, {1219.2, 609.6}, {-1219.2, 609.6},
+                              {1219.2, -609.6},  {0.0, -609.6},   {0.0, 609.6}};
   for (std::size_t path = 0; path + 1 < std::size(corners); ++path) {
     const BedPoint a = corners[path], b = corners[path + 1];
     const int steps = 400;

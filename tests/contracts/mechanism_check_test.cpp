@@ -65,8 +65,8 @@ std::vector<Hung> every_mechanism() {
 
 /// `columns` by `rows` places over the middle of what the mechanism reaches, each with noise; every
 /// third at an unknown position if `some_unknown`.
-std::vector<LengthsAtPlace> read(
-    const Mechanism& truth, int columns, int rows, bool some_unknown, Random& random) {
+std::vector<LengthsAtPlace> read(const Mechanism& truth, int columns, int rows, bool some_unknown,
+                                 Random& random) {
   const model::MechanismExtent e = truth.extent();
   std::vector<LengthsAtPlace> places;
   for (int iy = 0; iy < rows; ++iy) {
@@ -87,12 +87,9 @@ std::vector<LengthsAtPlace> read(
 }
 
 CheckWords words() {
-  return {"the calibration",
-          "readings",
-          "It is valid",
-          "It is valid after re-zeroing",
-          "Measure again",
-          [](const CheckHypothesis& h) { return "a change of " + h.side; }};
+  return {"the calibration", "readings",
+          "It is valid",     "It is valid after re-zeroing",
+          "Measure again",   [](const CheckHypothesis& h) { return "a change of " + h.side; }};
 }
 
 class CalibratedMechanism : public testing::TestWithParam<Hung> {
@@ -101,10 +98,8 @@ class CalibratedMechanism : public testing::TestWithParam<Hung> {
   static FittedMechanism fitted(const Hung& hung, Random& random) {
     const MechanismPtr truth = hung.make();
     const auto readings = std::make_shared<const observation::BeltLengthReadings>(
-        read(*truth, 6, 4, hung.some_unknown, random),
-        false,
-        observation::BeltNoise{.length_mm = 1.0},
-        0.0);
+        read(*truth, 6, 4, hung.some_unknown, random), false,
+        observation::BeltNoise{.length_mm = 1.0}, 0.0);
     estimation::EstimationInput input;
     input.mechanism = hung.moved(*truth);
     input.observations = {readings};
@@ -117,9 +112,7 @@ class CalibratedMechanism : public testing::TestWithParam<Hung> {
     const auto found = estimation::estimate(input);
     EXPECT_TRUE(found && found->converged);
     const Eigen::Index p = truth->values().size();
-    return {found->mechanism,
-            found->covariance.topLeftCorner(p, p),
-            found->noise_factor,
+    return {found->mechanism, found->covariance.topLeftCorner(p, p), found->noise_factor,
             static_cast<double>(readings->rows() - p)};
   }
 
@@ -169,7 +162,8 @@ TEST_P(CalibratedMechanism, ErrorsHaveTheirCovarianceAndReadingsTheNoise) {
   }
   // A true value is its stated one: what its prior adds to the information adds nothing to the error.
   // Four sigmas of the mean, and of that of a variance.
-  EXPECT_NEAR(squares, p - by_priors, 4.0 * std::sqrt(2.0 * p / kFits) + 2.0 * p / (dof - 2.0)) << "seeds 1 to " << kFits;
+  EXPECT_NEAR(squares, p - by_priors, 4.0 * std::sqrt(2.0 * p / kFits) + 2.0 * p / (dof - 2.0))
+      << "seeds 1 to " << kFits;
   EXPECT_NEAR(noise, 1.0, 4.0 * std::sqrt(2.0 / (dof * kFits)));
 }
 
@@ -217,7 +211,9 @@ TEST_P(CalibratedMechanism, SigmasFollowFromItsParameters) {
   EXPECT_NEAR(sigma.right_mm / std::sqrt(variance[1]), 1.0, 1e-2);
 }
 
-TEST_P(CalibratedMechanism, FreshReadingsConfirmIt) { expect_verdict(CheckVerdict::valid, false, 0.0); }
+TEST_P(CalibratedMechanism, FreshReadingsConfirmIt) {
+  expect_verdict(CheckVerdict::valid, false, 0.0);
+}
 
 TEST_P(CalibratedMechanism, ProposesRezeroingForAShiftedZero) {
   expect_verdict(CheckVerdict::valid_after_rezeroing, false, 5.0);
@@ -240,9 +236,7 @@ TEST_P(CalibratedMechanism, NamesASingleBadReading) {
   EXPECT_NE(check->sentence.find("point 4"), std::string::npos) << check->sentence;
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         CalibratedMechanism,
-                         testing::ValuesIn(every_mechanism()),
+INSTANTIATE_TEST_SUITE_P(All, CalibratedMechanism, testing::ValuesIn(every_mechanism()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace

@@ -14,9 +14,7 @@ namespace {
 
 class MechanismContract : public EveryMechanism {};
 
-INSTANTIATE_TEST_SUITE_P(Every,
-                         MechanismContract,
-                         testing::ValuesIn(every_mechanism()),
+INSTANTIATE_TEST_SUITE_P(Every, MechanismContract, testing::ValuesIn(every_mechanism()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(MechanismContract, HasNamesAndDimensions) {
@@ -137,9 +135,8 @@ TEST_P(MechanismContract, NamesFailures) {
   const MechanismPtr mechanism = GetParam().make();
   const auto is_named = [](const MechanismFailure& failure) {
     return !failure.sentence().empty() && !failure.reason.name.empty() &&
-           std::all_of(failure.reason.name.begin(), failure.reason.name.end(), [](char c) {
-             return (c >= 'a' && c <= 'z') || c == '_';
-           });
+           std::all_of(failure.reason.name.begin(), failure.reason.name.end(),
+                       [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
   };
   const auto n = static_cast<Eigen::Index>(mechanism->lengths().size());
   const auto nowhere = mechanism->locate(Eigen::VectorXd::Constant(n, 200.0), {});
@@ -187,8 +184,7 @@ TEST(BeltMechanismTest, UnknownAnchorsHaveNoLengths) {
   for (const Belt belt : kBelts) {
     // A span is converted to a belt's length and back: rounding of 3 m.
     EXPECT_NEAR(at->lengths_mm[static_cast<Eigen::Index>(belt)],
-                reading_at(testing_support::stated(), belt, {1500.0, 1000.0})->length_mm,
-                1e-11);
+                reading_at(testing_support::stated(), belt, {1500.0, 1000.0})->length_mm, 1e-11);
   }
 }
 

@@ -37,8 +37,9 @@ std::shared_ptr<const observation::DrawnMeasures> drawn(const model::Mechanism& 
   Random random(kSeed, 1);
   std::vector<DrawnMeasure> measures;
   const auto add = [&](DrawnMeasure m) {
-    m.value_mm = observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
-                 kRulerMm * random.normal();
+    m.value_mm =
+        observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
+        kRulerMm * random.normal();
     m.sigma_mm = kRulerMm;
     measures.push_back(m);
   };

@@ -27,9 +27,7 @@ class MechanismEffectsContract : public EveryMechanism {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Every,
-                         MechanismEffectsContract,
-                         testing::ValuesIn(every_mechanism()),
+INSTANTIATE_TEST_SUITE_P(Every, MechanismEffectsContract, testing::ValuesIn(every_mechanism()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(MechanismEffectsContract, AnEffectAtNullAddsExactlyNothing) {
@@ -52,14 +50,9 @@ TEST_P(MechanismEffectsContract, EffectsAreDescribed) {
   for (const effects::Effect* effect : mechanism->effects()) {
     SCOPED_TRACE(std::string(effect->id));
     EXPECT_TRUE(ids.insert(effect->id).second);
-    for (const std::string_view words : {effect->id,
-                                         effect->cause,
-                                         effect->signature,
-                                         effect->equation,
-                                         effect->source,
-                                         effect->not_modelled,
-                                         effect->typical,
-                                         effect->remedy}) {
+    for (const std::string_view words :
+         {effect->id, effect->cause, effect->signature, effect->equation, effect->source,
+          effect->not_modelled, effect->typical, effect->remedy}) {
       EXPECT_FALSE(words.empty());
       EXPECT_EQ(words.find('|'), std::string_view::npos)
           << "breaks a table of documents: " << words;

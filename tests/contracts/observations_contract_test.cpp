@@ -63,8 +63,8 @@ std::shared_ptr<const Observation> marks(const Wanted& wanted) {
   if (wanted.slip) places[kSpoilt].mark.x_mm += 20.0;
   turn_over(places, wanted);
   for (std::size_t i = 0; i < places.size(); ++i) places[i].index = i;
-  return std::make_shared<ChainLengthReadings>(
-      std::move(places), true, PointNoise{0.2, 0.3}, 15.0, SheetPrior{20.0, 0.01});
+  return std::make_shared<ChainLengthReadings>(std::move(places), true, PointNoise{0.2, 0.3}, 15.0,
+                                               SheetPrior{20.0, 0.01});
 }
 
 MeasuredHoles holes_design() {
@@ -117,12 +117,10 @@ std::shared_ptr<const Observation> holes(const Wanted& wanted) {
 
 std::shared_ptr<const Observation> parts(const Wanted& wanted) {
   Random random(wanted.seed, 78);
-  std::vector<ExtraReading> readings = {{ReadingOf::motor_spacing, "", 0.0, 1.0},
-                                        {ReadingOf::beam_rise, "", 0.0, 0.5},
-                                        {ReadingOf::ring_radius, "", 0.0, 0.5},
-                                        {ReadingOf::link_pitch, "left", 0.0, 0.001},
-                                        {ReadingOf::chain_mass, "", 0.0, 0.002},
-                                        {ReadingOf::tape_error, "x", 0.0, 0.2}};
+  std::vector<ExtraReading> readings = {
+      {ReadingOf::motor_spacing, "", 0.0, 1.0}, {ReadingOf::beam_rise, "", 0.0, 0.5},
+      {ReadingOf::ring_radius, "", 0.0, 0.5},   {ReadingOf::link_pitch, "left", 0.0, 0.001},
+      {ReadingOf::chain_mass, "", 0.0, 0.002},  {ReadingOf::tape_error, "x", 0.0, 0.2}};
   for (ExtraReading& reading : readings) {
     reading.value = predicted_reading(classic(), reading) + reading.sigma * random.normal();
   }
@@ -283,8 +281,7 @@ TEST_P(EveryObservation, DerivativesBySettingAreDifferences) {
 class AtOnePlace final : public LengthCorrection {
  public:
   AtOnePlace(model::MarkPoint centre, model::ChainLengths c) : centre_(centre), c_(c) {}
-  At at(model::MarkPoint mark,
-        model::ChainLengths lengths,
+  At at(model::MarkPoint mark, model::ChainLengths lengths,
         const Eigen::Matrix2d& by_mark) const override {
     const bool near = std::hypot(mark.x_mm - centre_.x_mm, mark.y_mm - centre_.y_mm) < 50.0;
     if (near) lengths = {lengths.left_mm + c_.left_mm, lengths.right_mm + c_.right_mm};
@@ -398,9 +395,8 @@ TEST_P(EveryObservation, EveryEffectIsShownOrRefusedWithASentence) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryObservation, testing::ValuesIn(kinds()), [](const auto& kind) {
-  return std::string(kind.param->id);
-});
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryObservation, testing::ValuesIn(kinds()),
+                         [](const auto& kind) { return std::string(kind.param->id); });
 
 }  // namespace
 }  // namespace chaintrue::grid::observation

@@ -36,7 +36,8 @@ std::unique_ptr<Surface> bicubic(const Nodes& x, const Nodes& y, const Eigen::Ma
 }
 
 std::unique_ptr<Surface> quintic(const Nodes& x, const Nodes& y, const Eigen::MatrixXd& values) {
-  return std::make_unique<TensorSpline>(std::make_shared<TensorAxes>(x, y, TensorEnds{}, 5), values);
+  return std::make_unique<TensorSpline>(std::make_shared<TensorAxes>(x, y, TensorEnds{}, 5),
+                                        values);
 }
 
 constexpr std::array kSurfaceMethods = {
@@ -141,8 +142,7 @@ TEST_P(SurfaceContract, IsLinearInItsValues) {
   for (int k = 0; k < 50; ++k) {
     const double x = random_.uniform(a.x.front(), a.x.back());
     const double y = random_.uniform(a.y.front(), a.y.back());
-    EXPECT_NEAR(sum->at(x, y).value,
-                2.0 * first->at(x, y).value - 0.5 * second->at(x, y).value,
+    EXPECT_NEAR(sum->at(x, y).value, 2.0 * first->at(x, y).value - 0.5 * second->at(x, y).value,
                 1e-12);  // rounding
   }
 }
@@ -188,9 +188,7 @@ TEST_P(SurfaceContract, RefusesInvalidGrids) {
   EXPECT_THROW((void)build({0, 1, 2}, {0, 1, 2}, hole), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods,
-                         SurfaceContract,
-                         testing::ValuesIn(kSurfaceMethods),
+INSTANTIATE_TEST_SUITE_P(Methods, SurfaceContract, testing::ValuesIn(kSurfaceMethods),
                          [](const testing::TestParamInfo<SurfaceMethod>& method) {
                            return std::string(method.param.id);
                          });

@@ -14,8 +14,9 @@ namespace {
 using MechanismPtr = std::shared_ptr<const model::Mechanism>;
 
 MechanismPtr belts() {
-  const auto made = model::make_belt_mechanism(
-      testing_support::stated(model::BeltLengths::belt_and_arm), 20.0, model::BeltScaleKnowledge{0.02});
+  const auto made =
+      model::make_belt_mechanism(testing_support::stated(model::BeltLengths::belt_and_arm), 20.0,
+                                 model::BeltScaleKnowledge{0.02});
   Eigen::VectorXd values = made->values();
   values[5] = 0.004;
   return made->with_values(values);
@@ -183,7 +184,9 @@ TEST(GivenPositions, ChangeTheResidualsToSecondOrderOnly) {
   const Taped set = taped();
   const double near = change_about(set, 2.0);
   EXPECT_GT(near, 0.0);
-  EXPECT_LT(near, 0.02);  // 2 mm squared over a metre of belt, a few times for lengths of different directions
+  EXPECT_LT(
+      near,
+      0.02);  // 2 mm squared over a metre of belt, a few times for lengths of different directions
   // A quarter of a second-order error is left at half the way; higher orders are 2 mm over a metre.
   EXPECT_NEAR(change_about(set, 1.0) / near, 0.25, 0.02);
 }

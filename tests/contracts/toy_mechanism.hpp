@@ -59,8 +59,7 @@ class ToyMechanism final : public Mechanism {
     return changed;
   }
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
-      const ToolPosition& position,
-      const MechanismVisit& /*visit*/,
+      const ToolPosition& position, const MechanismVisit& /*visit*/,
       Derivatives wanted = Derivatives::by_position_and_parameter) const override {
     if (!(position.y_mm < 0.0))
       return tl::unexpected(MechanismReason{"above_the_nails", "the point is above the nails"});

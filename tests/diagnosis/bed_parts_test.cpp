@@ -137,8 +137,7 @@ TEST(Averaging, KeepsTheModelsWithoutAPatternAndTheSumOfPatterns) {
     if (model.discrepancy >= 0) continue;
     // Logarithm and exponential of each model once more, and a sum over all.
     EXPECT_NEAR(averaged.comparison.probability(model),
-                (before.at({model.regressors, model.marginalised})),
-                1e-9);
+                (before.at({model.regressors, model.marginalised})), 1e-9);
   }
   EXPECT_NEAR(sum, 1.0, 1e-9);  // rounding of a thousand addends
   EXPECT_NEAR(share_of_patterns(averaged.comparison), share_of_patterns(whole.comparison), 1e-9);
@@ -157,7 +156,8 @@ TEST(Averaging, EqualsComparisonsOfEachPart) {
   const Analysis a = analysed(grid);
   const Analysis whole = analysed(grid, false);
   ASSERT_EQ(a.parts.size(), 16U);
-  std::map<std::string, std::pair<double, double>> by_cause;  // by the shortcut, by its own comparison
+  std::map<std::string, std::pair<double, double>>
+      by_cause;  // by the shortcut, by its own comparison
   for (const PartPosterior& part : a.parts) {
     std::vector<bool> excluded = nothing_rejected(a.system);
     for (const std::size_t u : part.left_out.units) excluded[u] = true;
@@ -165,8 +165,7 @@ TEST(Averaging, EqualsComparisonsOfEachPart) {
     // As if the rest of the bed were a session.
     RegressorSystem split = a.system;
     for (const std::size_t u : part.left_out.units) split.units[u].observation = 1;
-    const PartPosterior shortcut =
-        session_posteriors(split, 1, whole.comparison).front().posterior;
+    const PartPosterior shortcut = session_posteriors(split, 1, whole.comparison).front().posterior;
     for (const auto& [cause, p] : shortcut.causes) by_cause[name_of(cause)].first += p / 16.0;
     for (const CandidateModel& model : own.models) {
       for (const int k : model.regressors) {
@@ -215,7 +214,8 @@ TEST(Sessions, RefuseACopy) {
   const auto d = diagnose(both, verdict_alone());
   ASSERT_FALSE(d);
   EXPECT_EQ(d.error().sentence(),
-            "two.json has the same readings as one.json, to the last digit, and a copy adds nothing. Leave it out");
+            "two.json has the same readings as one.json, to the last digit, and a copy adds "
+            "nothing. Leave it out");
 }
 
 // For two files without numbers of visits, the first driven there and back in columns by a machine with friction.
@@ -265,7 +265,8 @@ TEST(Sessions, AreWeighedSeparatelyWithAPattern) {
   for (const PartFinding& own : d->sessions) {
     ASSERT_EQ(own.named.size(), 1U);
     EXPECT_EQ(own.units, 46U);  // 40 marks, six of them twice
-    EXPECT_GT(own.named.front().probability, 0.9) << own.session << ": " << own.named.front().effect;
+    EXPECT_GT(own.named.front().probability, 0.9)
+        << own.session << ": " << own.named.front().effect;
     EXPECT_EQ(own.likeliest.effect, own.named.front().effect);
   }
 }

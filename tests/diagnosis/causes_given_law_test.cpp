@@ -24,8 +24,8 @@ double wave(double length_mm) {
 
 /// Friction at the right chain.
 MeasuredGrid with_friction(double half_width_mm) {
-  return session_of(
-      {{"direction_hysteresis", "right", {{"half_width_mm", half_width_mm}}}}, 21, 9, 6);
+  return session_of({{"direction_hysteresis", "right", {{"half_width_mm", half_width_mm}}}}, 21, 9,
+                    6);
 }
 
 MeasuredGrid with_wave(const MeasuredGrid& grid) {

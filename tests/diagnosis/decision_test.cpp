@@ -17,9 +17,7 @@ struct SetOfCauses {
 };
 
 /// The decision for these sets, each together with a pattern or without, with every cause in its own class.
-Decision decided(const std::vector<SetOfCauses>& sets,
-                 std::size_t causes,
-                 bool detected = true,
+Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes, bool detected = true,
                  int discrepancy = 0) {
   RegressorSystem system;
   std::vector<CauseClass> classes;

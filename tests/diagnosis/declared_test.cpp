@@ -25,12 +25,13 @@ using testing_support::verdict_alone;
 
 /// 28 marks and six repeats, 0.2 and 0.3 mm of noise, on a machine that declares these effects.
 MeasuredGrid session_of(const std::vector<const Effect*>& declared,
-                        const std::vector<model::AppliedEffect>& hidden,
-                        std::uint64_t seed,
+                        const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed,
                         double noise = 1.0) {
   model::Machine machine;
   machine.declared = declared;
-  return synthetic::generate(machine, testing_support::usual_session(seed, hidden, noise)).value().grid;
+  return synthetic::generate(machine, testing_support::usual_session(seed, hidden, noise))
+      .value()
+      .grid;
 }
 
 std::string name_in_catalogue(const CauseId& cause) {
@@ -60,20 +61,18 @@ TEST_P(InPlaceOfTheCatalogue, DeclaredEffectsGiveTheSameVerdictAndSizes) {
     EXPECT_NEAR(a.probability, b.probability, 1e-6);
     ASSERT_EQ(a.parameters.size(), b.parameters.size());
     for (std::size_t i = 0; i < a.parameters.size(); ++i)
-      EXPECT_NEAR(a.parameters[i].value,
-                  b.parameters[i].value,
+      EXPECT_NEAR(a.parameters[i].value, b.parameters[i].value,
                   1e-6 * std::max(1.0, std::abs(b.parameters[i].value)));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All,
-    InPlaceOfTheCatalogue,
-    testing::Values(
-        model::AppliedEffect{"tape_scale", "x", {{"scale", 0.003}}},
-        model::AppliedEffect{
-            "angular_kink", "right", {{"slope_mm_per_rad", 9.0}, {"knee_rad", 0.7}}},
-        model::AppliedEffect{"tooth_skip", "left", {{"links", 1.0}, {"first_visit", 12.0}}}),
+    All, InPlaceOfTheCatalogue,
+    testing::Values(model::AppliedEffect{"tape_scale", "x", {{"scale", 0.003}}},
+                    model::AppliedEffect{
+                        "angular_kink", "right", {{"slope_mm_per_rad", 9.0}, {"knee_rad", 0.7}}},
+                    model::AppliedEffect{
+                        "tooth_skip", "left", {{"links", 1.0}, {"first_visit", 12.0}}}),
     [](const auto& one) { return one.param.effect; });
 
 struct Example {
@@ -97,15 +96,13 @@ TEST_P(ExampleOfThePage, IsNamedOnceItIsDeclared) {
   const ParameterEstimate& size = found->causes.front().parameters.front();
   EXPECT_NEAR(size.value, true_size, 4.0 * size.sigma) << "4 sigma: 1 in 16000";
   // Kept in the diagnosis and in the extended machine.
-  const Diagnosis back =
-      files::parse_diagnosis(files::write_diagnosis(*found), "diagnosis.json");
+  const Diagnosis back = files::parse_diagnosis(files::write_diagnosis(*found), "diagnosis.json");
   EXPECT_EQ(back.causes.front().cause.effect, &own);
   EXPECT_EQ(back.extended_machine.declared, std::vector<const Effect*>{&own});
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All,
-    ExampleOfThePage,
+    All, ExampleOfThePage,
     testing::Values(
         Example{"second_harmonic.json",
                 {"second_harmonic", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.2}}}},

@@ -19,8 +19,7 @@ using testing::HasSubstr;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
-void expect_refused(const MeasuredGrid& grid,
-                    DiagnosisFailure::Reason reason,
+void expect_refused(const MeasuredGrid& grid, DiagnosisFailure::Reason reason,
                     const std::string& words) {
   const auto answer = diagnose(grid, verdict_alone());
   ASSERT_FALSE(answer);
@@ -63,8 +62,7 @@ TEST(DiagnoseBadInput, RefusesAMissingMachine) {
 TEST(DiagnoseBadInput, ReportsAReadingThatContradictsTheMachine) {
   MeasuredGrid grid = session_of({}, 1);
   grid.readings.push_back({ReadingOf::motor_spacing, "", 2900.0, 1.0});
-  expect_refused(grid,
-                 DiagnosisFailure::Reason::contradictory_settings,
+  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings,
                  "motor_spacing_mm is 2900, but the machine file has 2978.4");
 }
 
@@ -72,8 +70,7 @@ TEST(DiagnoseBadInput, ReportsTwoContradictoryReadings) {
   MeasuredGrid grid = session_of({}, 1);
   grid.readings.push_back({ReadingOf::link_pitch, "left", 6.350, 0.001});
   grid.readings.push_back({ReadingOf::link_pitch, "left", 6.370, 0.001});
-  expect_refused(grid,
-                 DiagnosisFailure::Reason::contradictory_settings,
+  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings,
                  "two readings of link_pitch_mm contradict each other");
 }
 
@@ -109,8 +106,8 @@ TEST_P(EveryEffect, IsFoundWithItsSize) {
   if (!effect.parameters.front().integer) {
     // A signal-to-noise ratio of about 25 on the 7 x 4 grid of the default machine, computed from
     // the strength at the usual size.
-    synthetic::StrengthTable table(
-        machine, synthetic::regular_session({}, 7, 4), StatedNoise{0.2, 0.3, 12.0});
+    synthetic::StrengthTable table(machine, synthetic::regular_session({}, 7, 4),
+                                   StatedNoise{0.2, 0.3, 12.0});
     const double factor = 25.0 / table.strength(effect, side).signal_to_noise;
     const double limit = effect.parameters.front().upper / values.front();
     values.front() *= std::min(factor, 0.9 * limit);
@@ -139,8 +136,7 @@ std::string name_of_effect(const testing::TestParamInfo<const model::effects::Ef
   return std::string(info.param->id);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue,
-                         EveryEffect,
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect,
                          testing::ValuesIn(model::effects::catalogue().begin(),
                                            model::effects::catalogue().end()),
                          name_of_effect);
@@ -202,9 +198,9 @@ TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
   for (MeasuredPoint& p : grid.points) p.order.reset();
   const auto answer = diagnose(grid, verdict_alone());
   ASSERT_TRUE(answer);
-  for (const char* id : {"drift", "tooth_skip", "link_miscount", "zero_shift", "direction_hysteresis"}) {
-    const auto said = std::count_if(answer->not_testable.begin(),
-                                    answer->not_testable.end(),
+  for (const char* id :
+       {"drift", "tooth_skip", "link_miscount", "zero_shift", "direction_hysteresis"}) {
+    const auto said = std::count_if(answer->not_testable.begin(), answer->not_testable.end(),
                                     [&](const NotTestable& n) { return n.cause.effect->id == id; });
     EXPECT_EQ(said, static_cast<std::ptrdiff_t>(model::effects::find_effect(id)->sides.size()))
         << id;

@@ -21,8 +21,7 @@ using ::testing::SizeIs;
 
 /// Measures of the page that a plotter with this effect draws.
 TestDrawing drawn_with(const model::PlotterMachine& set,
-                       const std::vector<model::AppliedEffect>& hidden,
-                       std::uint64_t seed) {
+                       const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
   TestDrawing drawing = planned_drawing(set, model::PlotterFirmware::fluidnc);
   const auto plotter = model::make_plotter_mechanism(set)->with_effects(hidden);
   const observation::DrawnMeasures crosses = drawn_measures_of(drawing).value();
@@ -33,8 +32,9 @@ TestDrawing drawn_with(const model::PlotterMachine& set,
   }
   Random random(seed, 43);
   for (auto& m : drawing.measures) {
-    m.value_mm = observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
-                 kRulerSigmaMm * random.normal();
+    m.value_mm =
+        observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
+        kRulerSigmaMm * random.normal();
   }
   return drawing;
 }
@@ -47,8 +47,7 @@ TEST(DrawingDiagnosis, TreatsABadZeroAsASetting) {
   EXPECT_THAT(found->sentence, HasSubstr("Settings are off, and nothing else is wrong: zero left"));
   ASSERT_TRUE(found->drawing);
   const auto zero =
-      std::find_if(found->drawing->settings.begin(),
-                   found->drawing->settings.end(),
+      std::find_if(found->drawing->settings.begin(), found->drawing->settings.end(),
                    [](const DrawnSetting& own) { return own.name == "zero_left_mm"; });
   ASSERT_NE(zero, found->drawing->settings.end());
   // The fixture was drawn with zeros 23 mm off; three of its sigmas of 2 mm.

@@ -58,11 +58,8 @@ double log_normal_density(double x, double mean, double sigma) {
 
 /// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as in the
 /// conjugate form.
-double brute_force_at(const RegressorSystem& system,
-                      const MarginalisedSystem& marginalised,
-                      double lowest,
-                      bool with_cause,
-                      double prior_sigma) {
+double brute_force_at(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                      double lowest, bool with_cause, double prior_sigma) {
   const double size_sigma = prior_sigma / marginalised.g.col(0).norm();
   double total = 0.0;
   const double step_u = 0.05;
@@ -109,15 +106,13 @@ double brute_force_at(const RegressorSystem& system,
   return total;
 }
 
-double brute_force(const RegressorSystem& system,
-                   const MarginalisedSystem& marginalised,
-                   double lowest,
-                   bool with_cause) {
-  return std::log(
-      (1.0 - kWideSignalToNoisePrior) *
-          brute_force_at(system, marginalised, lowest, with_cause, kUsualSignalToNoise) +
-      kWideSignalToNoisePrior *
-          brute_force_at(system, marginalised, lowest, with_cause, kWideSignalToNoise));
+double brute_force(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                   double lowest, bool with_cause) {
+  return std::log((1.0 - kWideSignalToNoisePrior) * brute_force_at(system, marginalised, lowest,
+                                                                   with_cause,
+                                                                   kUsualSignalToNoise) +
+                  kWideSignalToNoisePrior *
+                      brute_force_at(system, marginalised, lowest, with_cause, kWideSignalToNoise));
 }
 
 TEST(Evidence, WithoutACauseEqualsTheIntegral) {
@@ -126,8 +121,8 @@ TEST(Evidence, WithoutACauseEqualsTheIntegral) {
   const NormalEquations equations = normal_equations(system, marginalised, {0});
   const NoiseDensity noise(kDof, 6);
   const double closed = set_evidence(equations, system.regressors, {}, noise).log_evidence;
-  EXPECT_NEAR(
-      closed, brute_force(system, marginalised, -100.0, false), 2e-4)  // raster of 120 by 120
+  EXPECT_NEAR(closed, brute_force(system, marginalised, -100.0, false),
+              2e-4)  // raster of 120 by 120
       << "settings integrated in closed form";
 }
 
@@ -184,8 +179,7 @@ TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
   EXPECT_NEAR(marginalised.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
   EXPECT_NEAR(marginalised.log_det, std::log(v.determinant()), 1e-12);       // rounding
   EXPECT_NEAR(marginalised.g.col(0).dot(marginalised.e),
-              system.g.column(kept, 0).dot(v.inverse() * r),
-              1e-12);
+              system.g.column(kept, 0).dot(v.inverse() * r), 1e-12);
 }
 
 TEST(Decision, ProbabilitiesStayBelowOne) {
@@ -193,15 +187,14 @@ TEST(Decision, ProbabilitiesStayBelowOne) {
   const std::vector<bool> none(3, false);
   ModelComparison comparison;
   comparison.marginalised_systems.push_back(marginalise(system, none));
-  comparison.marginalised_systems.front().discrepancy_trace.assign(chain_discrepancies().kernels.size(),
-                                                                   1.0);
+  comparison.marginalised_systems.front().discrepancy_trace.assign(
+      chain_discrepancies().kernels.size(), 1.0);
   CandidateModel model;
   model.discrepancy = 0;
   model.log_weight = 1e-14;  // the size of the rounding of a total over thousands of models
   comparison.models = {model};
   EXPECT_GT(comparison.probability(model), 1.0);
-  const Decision decision =
-      decide(system, comparison, none, true, classes_of(system, comparison));
+  const Decision decision = decide(system, comparison, none, true, classes_of(system, comparison));
   EXPECT_EQ(decision.discrepancy, 1.0);
   EXPECT_EQ(decision.discrepancy_alone, 1.0);
 }

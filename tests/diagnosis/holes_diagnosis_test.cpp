@@ -51,8 +51,7 @@ TEST(HolesDiagnosis, ToleratesNearlyEqualSingularValues) {
   EXPECT_EQ(found.verdict, Verdict::model_discrepancy) << found.sentence;
 }
 
-void expect_refused(const MeasuredHoles& set,
-                    DiagnosisFailure::Reason reason,
+void expect_refused(const MeasuredHoles& set, DiagnosisFailure::Reason reason,
                     const std::string& words) {
   const auto found = diagnose(set, quick());
   ASSERT_FALSE(found);
@@ -63,8 +62,7 @@ void expect_refused(const MeasuredHoles& set,
 TEST(HolesDiagnosisBadInput, NamesTheMissingDistances) {
   MeasuredHoles set = holes({}, 1);
   set.distances.resize(6);
-  expect_refused(set,
-                 DiagnosisFailure::Reason::too_few_points,
+  expect_refused(set, DiagnosisFailure::Reason::too_few_points,
                  "6 distances are too few to name a cause: at least 8 are needed. Nine holes and "
                  "twenty distances are a good start. Measure also ");
 }
@@ -72,8 +70,7 @@ TEST(HolesDiagnosisBadInput, NamesTheMissingDistances) {
 TEST(HolesDiagnosisBadInput, ReportsAForgottenHookOffset) {
   MeasuredHoles set = holes({}, 1);
   for (HoleDistance& distance : set.distances) distance.distance_mm += 40.0;
-  expect_refused(set,
-                 DiagnosisFailure::Reason::contradictory_settings,
+  expect_refused(set, DiagnosisFailure::Reason::contradictory_settings,
                  "all distances are about 40 mm longer than commanded, whatever their length: the "
                  "tape's hook offset, entered as 0 mm, is probably 40 mm");
 }
@@ -101,7 +98,8 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const auto system = linearise(*session, state);
   ASSERT_TRUE(system);
   const observation::Observation& tape = *session->parts.front().observation;
-  const auto line = tape.linearise(state.view(session->parts.front()), observation::columns_of(tape));
+  const auto line =
+      tape.linearise(state.view(session->parts.front()), observation::columns_of(tape));
   ASSERT_TRUE(line);
   Eigen::VectorXd sigma(system->e.size());
   for (const SystemUnit& unit : system->units) sigma(unit.first_row) = unit.sigma();
@@ -125,12 +123,9 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
 // With measured edges the sheet's placement is estimated, as one of the settings.
 TEST(HolesDiagnosis, EdgesLocateTheSheet) {
   MeasuredHoles design = nine_holes();
-  const std::vector<std::pair<std::size_t, SheetEdge>> edges = {{0, SheetEdge::left},
-                                                                {0, SheetEdge::top},
-                                                                {6, SheetEdge::left},
-                                                                {6, SheetEdge::bottom},
-                                                                {8, SheetEdge::right},
-                                                                {8, SheetEdge::bottom}};
+  const std::vector<std::pair<std::size_t, SheetEdge>> edges = {
+      {0, SheetEdge::left},   {0, SheetEdge::top},   {6, SheetEdge::left},
+      {6, SheetEdge::bottom}, {8, SheetEdge::right}, {8, SheetEdge::bottom}};
   for (const auto& [hole, edge] : edges) {
     design.distances.push_back({.from = hole, .edge = edge, .distance_mm = 0.0});
   }
@@ -146,10 +141,9 @@ TEST(HolesDiagnosis, EdgesLocateTheSheet) {
   }
   const Diagnosis found = diagnosed(set, {});
   EXPECT_TRUE(found.causes.empty()) << found.sentence;
-  const auto sheet =
-      std::find_if(found.settings.begin(), found.settings.end(), [](const CalibratedSetting& s) {
-        return s.setting == model::Setting::sheet_x_mm;
-      });
+  const auto sheet = std::find_if(
+      found.settings.begin(), found.settings.end(),
+      [](const CalibratedSetting& s) { return s.setting == model::Setting::sheet_x_mm; });
   ASSERT_NE(sheet, found.settings.end());
   EXPECT_LT(sheet->sigma, 4.0) << "mm: the motors' 3 mm and the sheet move together";
   EXPECT_NEAR(sheet->calibrated, kShiftMm, 3.0 * sheet->sigma);

@@ -86,7 +86,8 @@ LawCurve curve_of(const Law& law, Eigen::VectorXd& amplitude, double& at) {
   at = law.parameters.size() > 1 ? law.parameters[1].value : 0.0;
   const auto wave = [&](std::size_t of_size) {
     const double phase = law.parameters[of_size == 0 ? 2 : 4].value;
-    return Eigen::Vector2d(law.parameters[of_size].value * Eigen::Vector2d(std::sin(phase), std::cos(phase)));
+    return Eigen::Vector2d(law.parameters[of_size].value *
+                           Eigen::Vector2d(std::sin(phase), std::cos(phase)));
   };
   if (is_periodic(law.shape)) {
     at = curve.span() / at;
@@ -140,7 +141,8 @@ TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
   }
   // A movement of the tool is written by the chain's angle, which is its direction except for the
   // ring.
-  const bool moves_tool = law.enters == Enters::x || law.enters == Enters::y || law.enters == Enters::along;
+  const bool moves_tool =
+      law.enters == Enters::x || law.enters == Enters::y || law.enters == Enters::along;
   const double tolerance = moves_tool ? 0.05 : 1e-4;
   EXPECT_LT((as_columns - *as_effect).norm(), tolerance * as_columns.norm());
   const SystemPlace& place = a.system.places.front();
@@ -153,8 +155,7 @@ TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Laws,
-    EveryLaw,
+    Laws, EveryLaw,
     testing::Values(Written{Coordinate::x, LawShape::step, Enters::left},
                     Written{Coordinate::x, LawShape::kink, Enters::right},
                     Written{Coordinate::x, LawShape::wave, Enters::y},
@@ -262,7 +263,8 @@ TEST(LawFiles, AStepOfOneChainsLengthHasTheGapOfThatChain) {
 // A step between two columns of marks: no reading shows where, and the map has the mean over these
 // places.
 TEST(LawFiles, TheMapAveragesOverTheGapInWhichAStepMayStand) {
-  const auto written = declaration_of(laws_found(analysed(with_step_along_x(12))).laws, model::Bed{});
+  const auto written =
+      declaration_of(laws_found(analysed(with_step_along_x(12))).laws, model::Bed{});
   ASSERT_TRUE(written) << written.error();
   MeasuredGrid grid = with_step_along_x(41);
   double below = -1e9;

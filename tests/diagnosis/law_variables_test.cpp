@@ -47,7 +47,8 @@ TEST(BeltLaws, ColumnsAreTheDifferencesOfReadings) {
       }
       const RegressorSystem read = system_of(with, state, observations_of(with, state, kSigmaMm));
       // Residuals are linear in the readings: rounding of lengths of some metres.
-      EXPECT_LT((read.e - system.e - column).norm(), 1e-9) << name(of) << " " << name(entrance.enters);
+      EXPECT_LT((read.e - system.e - column).norm(), 1e-9)
+          << name(of) << " " << name(entrance.enters);
       ++compared;
     }
   }

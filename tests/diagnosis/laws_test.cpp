@@ -58,9 +58,8 @@ TEST(Laws, AWaveAndItsSecondHarmonicAreOneLaw) {
 }
 
 double probability_of(const Diagnosis& found, std::string_view what) {
-  const auto at = std::find_if(found.hypotheses.begin(), found.hypotheses.end(), [&](const Hypothesis& one) {
-    return one.effect == what;
-  });
+  const auto at = std::find_if(found.hypotheses.begin(), found.hypotheses.end(),
+                               [&](const Hypothesis& one) { return one.effect == what; });
   return at == found.hypotheses.end() ? 0.0 : at->probability;
 }
 
@@ -69,11 +68,13 @@ TEST(Laws, TheVerdictNamesTheClaimedLaw) {
   const Diagnosis found = diagnose(with_half_turns(11), testing_support::verdict_alone()).value();
   ASSERT_NE(claimed_law(found), nullptr);
   EXPECT_EQ(found.verdict, Verdict::model_discrepancy);
-  EXPECT_THAT(found.sentence, HasSubstr("follow a law that no cause in the catalogue has: a wave of 0."));
+  EXPECT_THAT(found.sentence,
+              HasSubstr("follow a law that no cause in the catalogue has: a wave of 0."));
   EXPECT_THAT(found.what_to_do.back(), HasSubstr("--law"));
   EXPECT_GT(probability_of(found, "law"), kLawClaimed);
   EXPECT_LT(probability_of(found, "nothing"), 1.0 - kLawClaimed);
-  const Diagnosis sound = diagnose(session_of({}, 43, 8, 7), testing_support::verdict_alone()).value();
+  const Diagnosis sound =
+      diagnose(session_of({}, 43, 8, 7), testing_support::verdict_alone()).value();
   EXPECT_EQ(sound.verdict, Verdict::nothing_found);
   EXPECT_EQ(probability_of(sound, "law"), 0.0);
 }
@@ -128,10 +129,9 @@ TEST(Laws, AreNotClaimedForNoiseOrListedCauses) {
   }
   // Laws with the same effect exist: a line in the left chain's length, a kink in its angle and a
   // wave in its length. The listed cause has the larger prior.
-  for (const auto& [id, values] :
-       {std::pair{"chain_pitch_error", std::vector{0.0012}},
-        std::pair{"angular_kink", std::vector{6.0, 0.5}},
-        std::pair{"sprocket_eccentricity", std::vector{0.6, 1.0}}}) {
+  for (const auto& [id, values] : {std::pair{"chain_pitch_error", std::vector{0.0012}},
+                                   std::pair{"angular_kink", std::vector{6.0, 0.5}},
+                                   std::pair{"sprocket_eccentricity", std::vector{0.6, 1.0}}}) {
     const auto effect = model::effects::applied(*find_effect(id), EffectSide::left, values);
     EXPECT_THAT(laws_found(analysed(session_of({effect}, 24))).laws, IsEmpty()) << id;
   }

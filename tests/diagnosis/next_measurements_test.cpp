@@ -48,8 +48,8 @@ bool is_silent(const Alternatives& alternatives, const Rows& rows) {
 /// Applies `law` to the sessions of these seeds that end with a set of causes, until it has had
 /// `most` that ask its question.
 template <class Session, class Law>
-void with_named_sets(
-    std::uint64_t first, std::uint64_t last, int most, const Session& session, const Law& law) {
+void with_named_sets(std::uint64_t first, std::uint64_t last, int most, const Session& session,
+                     const Law& law) {
   int sets = 0;
   for (std::uint64_t seed = first; seed <= last && sets < most; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
@@ -90,8 +90,7 @@ TEST(NextMeasurements, AnIndependentReadingChangesNothing) {
 }
 
 /// Posterior probability of each group from readings at `rows`, with the full densities.
-std::vector<double> posterior(const Alternatives& alternatives,
-                              const Rows& rows,
+std::vector<double> posterior(const Alternatives& alternatives, const Rows& rows,
                               const Eigen::VectorXd& read) {
   std::vector<double> logs;
   for (const Alternative& one : alternatives) {
@@ -149,8 +148,7 @@ TEST(NextMeasurements, PredictEachCauseOfAClassSeparately) {
       // Predicted with Gaussian log odds of one rival and a bound of the others, which errs by up to
       // 0.112 on these sets; 2000 draws are accurate to 0.01.
       EXPECT_NEAR(expected_discrimination(alternatives, candidate.rows).named_alone,
-                  drawn_named_alone(alternatives, candidate.rows, seed),
-                  0.12)
+                  drawn_named_alone(alternatives, candidate.rows, seed), 0.12)
           << what;
     }
     EXPECT_EQ(all.size(), 4u);
@@ -200,9 +198,8 @@ class WithCandidate {
     const int number = system_.unit_of_row[static_cast<std::size_t>(rows.front())];
     if (number < 0) {
       const auto own =
-          std::find_if(system_.certain.begin(), system_.certain.end(), [&](const SystemUnit& unit) {
-            return unit.first_row == rows.front();
-          });
+          std::find_if(system_.certain.begin(), system_.certain.end(),
+                       [&](const SystemUnit& unit) { return unit.first_row == rows.front(); });
       return predicted_(rows) + own->sigma() * truth.mean(rows);
     }
     Eigen::VectorXd off(static_cast<Eigen::Index>(rows.size()));
@@ -217,13 +214,12 @@ class WithCandidate {
   }
 
   static std::size_t hole_of(const MeasuredHoles& set, const std::string& name) {
-    const auto found = std::find_if(
-        set.holes.begin(), set.holes.end(), [&](const Hole& hole) { return hole.name == name; });
+    const auto found = std::find_if(set.holes.begin(), set.holes.end(),
+                                    [&](const Hole& hole) { return hole.name == name; });
     return static_cast<std::size_t>(found - set.holes.begin());
   }
 
-  static void add_distances(const NextMeasurement& what,
-                            const Eigen::VectorXd& read,
+  static void add_distances(const NextMeasurement& what, const Eigen::VectorXd& read,
                             MeasuredHoles& set) {
     if (what.mark) set.holes.push_back({"new", model::identity_placement(*what.mark)});
     const std::size_t from = hole_of(set, what.mark ? "new" : what.from);
@@ -242,8 +238,7 @@ class WithCandidate {
 
 /// The remaining confusion between the groups of single causes that `alternatives` of another
 /// analysis contains: the sum over pairs of the square roots of their probabilities.
-double confusion_left(const Measured& measured,
-                      const Analysis& before,
+double confusion_left(const Measured& measured, const Analysis& before,
                       const Alternatives& alternatives) {
   const Analysis a = analysis_of(measured);
   std::vector<double> groups(alternatives.back().group + 1, 0.0);

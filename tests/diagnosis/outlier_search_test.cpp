@@ -27,8 +27,8 @@ RegressorSystem random_system(Random& random) {
   for (std::size_t u = 0; u < kUnits; ++u) {
     const Eigen::Index rows = u % 3 == 0 ? 1 : 2;
     system.units.push_back({.first_row = row, .rows = rows});
-    system.unit_of_row.insert(
-        system.unit_of_row.end(), static_cast<std::size_t>(rows), static_cast<int>(u));
+    system.unit_of_row.insert(system.unit_of_row.end(), static_cast<std::size_t>(rows),
+                              static_cast<int>(u));
     row += rows;
   }
   system.e.resize(row);
@@ -123,8 +123,7 @@ class FullSearch {
     const Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(rows);
     const Eigen::LLT<Eigen::MatrixXd> llt(basis.transpose() * covariance_ * basis);
     return {llt.matrixL().solve(basis.transpose() * residual_).squaredNorm(),
-            2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum(),
-            rows};
+            2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum(), rows};
   }
 
   /// The best of the nested sets.
@@ -203,8 +202,7 @@ void expect_full_search(const RegressorSystem& system, const std::vector<int>& s
   EXPECT_NEAR(left.log_det, w.log_det, 1e-9 * (1.0 + std::abs(w.log_det)));
   if (!system.groups.empty()) {
     EXPECT_NEAR(left.log_outliers,
-                static_cast<double>(system.e.size() - w.rows) * log_price_of_outlier(1),
-                1e-9);
+                static_cast<double>(system.e.size() - w.rows) * log_price_of_outlier(1), 1e-9);
   }
 }
 

@@ -34,9 +34,7 @@ RegressorSystem system_of_flat_frame() {
   const MeasuredBelts belts = synthetic::simulate_belts(machine, machine, spec).value();
   const auto alone = belts::fit_anchors_robustly(belts);
   EXPECT_TRUE(alone);
-  return system_of(belts,
-                   alone->state,
-                   observations_of(belts, alone->state, 0.3),
+  return system_of(belts, alone->state, observations_of(belts, alone->state, 0.3),
                    candidates(belts).testable);
 }
 
@@ -83,8 +81,9 @@ TEST(Prior, ExpectedCausesHaveProbabilityOneHalf) {
   double alone = 0.0, with_another = 0.0;
   for (const int number : expected) {
     alone += prior_of(system, {number}) / prior_of(system, {});
-    with_another += prior_of(system, {std::min(number, other.front()), std::max(number, other.front())}) /
-                    prior_of(system, other);
+    with_another +=
+        prior_of(system, {std::min(number, other.front()), std::max(number, other.front())}) /
+        prior_of(system, other);
   }
   // Rounding of logarithms.
   EXPECT_NEAR(alone, 1.0, 1e-12);
@@ -110,10 +109,11 @@ TEST(Prior, LinksAddedAreAsLikelyAsLinksLost) {
   int pairs = 0;
   for (const Regressor& lost : regressors) {
     if (!lost.fixed || lost.values.front() >= 0.0) continue;
-    const auto added = std::find_if(regressors.begin(), regressors.end(), [&](const Regressor& other) {
-      return other.cause == lost.cause && other.values.front() == -lost.values.front() &&
-             std::equal(other.values.begin() + 1, other.values.end(), lost.values.begin() + 1);
-    });
+    const auto added =
+        std::find_if(regressors.begin(), regressors.end(), [&](const Regressor& other) {
+          return other.cause == lost.cause && other.values.front() == -lost.values.front() &&
+                 std::equal(other.values.begin() + 1, other.values.end(), lost.values.begin() + 1);
+        });
     ASSERT_NE(added, regressors.end()) << lost.cause.effect->id;
     // The curvature of a chain's length over six millimetres.
     EXPECT_NEAR(lost.log_prior, added->log_prior, 0.05) << lost.cause.effect->id;

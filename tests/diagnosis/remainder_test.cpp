@@ -183,10 +183,9 @@ TEST(Budget, APartIsTheErrorFromItsCause) {
   const auto found = diagnose(session_of({kLongLeft}, 13), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->budget);
-  const auto cause = std::find_if(
-      found->budget->lines.begin(), found->budget->lines.end(), [](const BudgetLine& line) {
-        return line.what == BudgetLine::What::cause;
-      });
+  const auto cause =
+      std::find_if(found->budget->lines.begin(), found->budget->lines.end(),
+                   [](const BudgetLine& line) { return line.what == BudgetLine::What::cause; });
   ASSERT_NE(cause, found->budget->lines.end());
   ASSERT_TRUE(cause->part_mm);
   EXPECT_GT(*cause->part_mm, 0.1);

@@ -28,11 +28,8 @@ inline synthetic::SyntheticSpec usual_session(std::uint64_t seed,
   return spec;
 }
 
-inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
-                               std::uint64_t seed,
-                               int columns = 7,
-                               int rows = 4,
-                               const model::Machine& machine = {}) {
+inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed,
+                               int columns = 7, int rows = 4, const model::Machine& machine = {}) {
   synthetic::SyntheticSpec spec = usual_session(seed, hidden);
   spec.design.columns = columns;
   spec.design.rows = rows;
@@ -46,7 +43,8 @@ inline DiagnosisOptions verdict_alone() {
   return options;
 }
 
-inline Analysis analysis_of(const Measured& measured, const DiagnosisOptions& options = verdict_alone()) {
+inline Analysis analysis_of(const Measured& measured,
+                            const DiagnosisOptions& options = verdict_alone()) {
   return analyse(observations_of(measured).value(), options).value();
 }
 

@@ -38,8 +38,7 @@ TEST(Settling, MeasuresATurnAtTheSheetsEdge) {
   ASSERT_TRUE(a.converged);
   auto again = linearise(a.session, a.state).value();
   again.g = RegressorColumns(a.session.rows);
-  const auto marginalised =
-      marginalise(again, a.comparison.marginalised_systems.front().outliers);
+  const auto marginalised = marginalise(again, a.comparison.marginalised_systems.front().outliers);
   const Eigen::VectorXd change = estimate(again, marginalised, {}, -1).setting_change;
   const double edge_mm = 0.5 * a.session.stated.bed.width_mm;
   const Eigen::Index turn = ObservationSet::sheet_column(0) + 2;

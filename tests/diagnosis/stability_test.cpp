@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/downdating.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
@@ -107,8 +107,7 @@ TEST(Downdating, EqualsANewComparison) {
     for (std::size_t k = 0; k < groups.size(); k += 3) {
       std::vector<bool> excluded(session->units.size(), false);
       for (const std::size_t i : groups[k].units) excluded[i] = true;
-      const ModelComparison comparison =
-          compare_models(a->system, excluded, {});
+      const ModelComparison comparison = compare_models(a->system, excluded, {});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // Not included in the models of all points: sets of outliers and discrepancies that become
@@ -133,8 +132,7 @@ TEST(Stability, AStrongNameSurvivesWithoutAnyPointColumnOrRow) {
     EXPECT_GT(removal.probability, 0.9);
   }
   EXPECT_THAT(found->not_proved, Not(HasSubstr("rests on")));
-  EXPECT_THAT(found->notes,
-              testing::Contains(HasSubstr("Leaving out any of")));
+  EXPECT_THAT(found->notes, testing::Contains(HasSubstr("Leaving out any of")));
 }
 
 TEST(Stability, IsAbsentWithoutAName) {
@@ -148,10 +146,9 @@ TEST(Stability, IsAbsentWithoutAName) {
 // an effect of one point is not named.
 TEST(Stability, OnePointDecidesNoName) {
   int refused = 0;
-  for (const auto& [seed, point, residual_mm] : {std::tuple(1U, 21U, 2.0),
-                                            std::tuple(1U, 21U, 1.5),
-                                            std::tuple(2U, 27U, -3.0),
-                                            std::tuple(2U, 27U, -2.0)}) {
+  for (const auto& [seed, point, residual_mm] :
+       {std::tuple(1U, 21U, 2.0), std::tuple(1U, 21U, 1.5), std::tuple(2U, 27U, -3.0),
+        std::tuple(2U, 27U, -2.0)}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", point " << point + 1);
     MeasuredGrid grid = session_of({}, seed);
     grid.points[point].lengths->right_mm += residual_mm;

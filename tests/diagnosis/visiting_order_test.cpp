@@ -37,8 +37,9 @@ TEST(VisitNumbers, FollowTheLinesOfThreeByTwoMarks) {
   EXPECT_THAT(visit_numbers(points, {.from_right = true}).value(), ElementsAre(2, 1, 0, 5, 4, 3));
   EXPECT_THAT(visit_numbers(points, {.from_below = true}).value(), ElementsAre(3, 4, 5, 0, 1, 2));
   EXPECT_THAT(visit_numbers(points, {.rows = false}).value(), ElementsAre(0, 2, 4, 1, 3, 5));
-  EXPECT_THAT(visit_numbers(points, {.rows = false, .serpentine = true, .from_right = true}).value(),
-              ElementsAre(4, 3, 0, 5, 2, 1));
+  EXPECT_THAT(
+      visit_numbers(points, {.rows = false, .serpentine = true, .from_right = true}).value(),
+      ElementsAre(4, 3, 0, 5, 2, 1));
 }
 
 TEST(VisitNumbers, EachOfTheSixteenOrdersIsAnotherPermutation) {
@@ -68,8 +69,7 @@ TEST(VisitNumbers, MarksMeasuredAgainComeLast) {
 
 TEST(VisitNumbers, AScatteredSetHasNoLines) {
   std::vector<MeasuredPoint> points;
-  for (int k = 0; k < 30; ++k)
-    points.push_back(at(40.0 * ((k * 37) % 50), 40.0 * ((k * 23) % 31)));
+  for (int k = 0; k < 30; ++k) points.push_back(at(40.0 * ((k * 37) % 50), 40.0 * ((k * 23) % 31)));
   const auto numbers = visit_numbers(points, {});
   ASSERT_FALSE(numbers);
   EXPECT_EQ(numbers.error(), "marks that are in rows; these are not");

@@ -26,9 +26,9 @@ std::vector<const model::effects::Effect*> all_effects() {
 }
 
 TEST(WorkshopUnits, UseDirectionsInsteadOfSigns) {
-  constexpr std::array kDirected = {"longer", "shorter", "larger",  "smaller", "higher", "lower",
-                                    "more",   "less",    "much",    "little",  "heavier",
-                                    "lighter", "below",  "above",   "left",    "right"};
+  constexpr std::array kDirected = {"longer", "shorter", "larger", "smaller", "higher",  "lower",
+                                    "more",   "less",    "much",   "little",  "heavier", "lighter",
+                                    "below",  "above",   "left",   "right"};
   for (const model::effects::Effect* effect : all_effects()) {
     for (const model::effects::EffectParameter& parameter : effect->parameters) {
       // A tenth of the upper bound: a number with visible digits.
@@ -42,8 +42,8 @@ TEST(WorkshopUnits, UseDirectionsInsteadOfSigns) {
       EXPECT_NE(positive, negative) << effect->id << " " << parameter.name;
       EXPECT_THAT(positive, Not(HasSubstr("-0"))) << effect->id;
       for (const char* const word : kDirected) {
-        const bool directed = negative.find(word) != std::string::npos ||
-                              positive.find(word) != std::string::npos;
+        const bool directed =
+            negative.find(word) != std::string::npos || positive.find(word) != std::string::npos;
         // The only minus sign left is that of "+-".
         if (directed) {
           std::string bare = negative;
@@ -57,9 +57,8 @@ TEST(WorkshopUnits, UseDirectionsInsteadOfSigns) {
 
 std::string worded(std::string_view effect, const char* parameter, double value, double sigma) {
   for (const model::effects::Effect* own : all_effects()) {
-    const bool has = std::any_of(own->parameters.begin(), own->parameters.end(), [&](const auto& one) {
-      return one.name == parameter;
-    });
+    const bool has = std::any_of(own->parameters.begin(), own->parameters.end(),
+                                 [&](const auto& one) { return one.name == parameter; });
     if (own->id == effect && has)
       return in_workshop_units({own, own->sides.front()}, {parameter, value, sigma});
   }

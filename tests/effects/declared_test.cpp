@@ -144,32 +144,30 @@ TEST(DeclaredEffect, ReportsItsErrors) {
       {[](Declaration& d) { d.id = "drift"; },
        "/id: drift: another name, because the catalogue has an effect with this one; to replace "
        "it, use \"instead_of\""},
-      {[](Declaration& d) { d.id = "Wave 2"; },
-       "/id: Wave 2: a name of small letters"},
+      {[](Declaration& d) { d.id = "Wave 2"; }, "/id: Wave 2: a name of small letters"},
       {[](Declaration& d) { d.instead_of = "chain_sag"; },
        "because formulas cannot change the equilibrium"},
-      {[](Declaration& d) { d.instead_of = "rust"; },
-       "/instead_of: rust"},
+      {[](Declaration& d) { d.instead_of = "rust"; }, "/instead_of: rust"},
       {[](Declaration& d) { d.sides = {EffectSide::x}; },
        "/sides/0: x: left, right or both, because it acts on a chain"},
       {[](Declaration& d) { d.parameters[0].lower = 9.0; },
        "/parameters/0/lower: 9: a number below \"upper\""},
-      {[](Declaration& d) { d.parameters[0].nominal = 9.0; },
-       "/parameters/0/nominal: 9"},
-      {[](Declaration& d) { d.parameters[0].nominal = 0.0; },
-       "not the value without effect"},
-      {[](Declaration& d) { d.parameters[0].prior_sigma = 0.0; },
-       "above 0"},
-      {[](Declaration& d) { d.parameters[1].name = "turn"; },
-       "nothing else in the formula has"},
-      {[](Declaration& d) { d.parameters[1].name = "phase_deg"; },
-       "a name that ends in a unit"},
-      {[](Declaration& d) { d.parameters[1].role = ParameterRole::size; d.parameters[1].null = -1.0; },
+      {[](Declaration& d) { d.parameters[0].nominal = 9.0; }, "/parameters/0/nominal: 9"},
+      {[](Declaration& d) { d.parameters[0].nominal = 0.0; }, "not the value without effect"},
+      {[](Declaration& d) { d.parameters[0].prior_sigma = 0.0; }, "above 0"},
+      {[](Declaration& d) { d.parameters[1].name = "turn"; }, "nothing else in the formula has"},
+      {[](Declaration& d) { d.parameters[1].name = "phase_deg"; }, "a name that ends in a unit"},
+      {[](Declaration& d) {
+         d.parameters[1].role = ParameterRole::size;
+         d.parameters[1].null = -1.0;
+       },
        "one size and at most one place"},
-      {[](Declaration& d) { d.parameters[0].integer = true; d.parameters[0].nominal = 1.0; },
+      {[](Declaration& d) {
+         d.parameters[0].integer = true;
+         d.parameters[0].nominal = 1.0;
+       },
        "uses whole numbers"},
-      {[](Declaration& d) { d.parameters.clear(); },
-       "0 parameters"},
+      {[](Declaration& d) { d.parameters.clear(); }, "0 parameters"},
       {[](Declaration& d) { d.adds_mm = "amplitude_mm * L0 / turn"; },
        "/parameters/1/name: phase_rad: a parameter that the formula uses, or none"},
       {[](Declaration& d) { d.adds_mm = "amplitude_mm * sin(phase)"; },
@@ -179,11 +177,16 @@ TEST(DeclaredEffect, ReportsItsErrors) {
        "/adds_mm@0: a formula in mm N: one whose units come out as mm"},
       {[](Declaration& d) { d.adds_mm = "amplitude_mm * d * sin(phi + phase_rad)"; },
        "d with parameters only"},
-      {[](Declaration& d) { d.adds_mm = ""; },
-       "no formula: \"adds_mm\" or \"elongation\""},
-      {[](Declaration& d) { d.adds_x_mm = "amplitude_mm"; d.adds_mm = ""; },
+      {[](Declaration& d) { d.adds_mm = ""; }, "no formula: \"adds_mm\" or \"elongation\""},
+      {[](Declaration& d) {
+         d.adds_x_mm = "amplitude_mm";
+         d.adds_mm = "";
+       },
        "it acts on a chain"},
-      {[](Declaration& d) { d.acts_on = ActsOn::visit; d.adds_mm = "amplitude_mm"; },
+      {[](Declaration& d) {
+         d.acts_on = ActsOn::visit;
+         d.adds_mm = "amplitude_mm";
+       },
        "the number of the visit"}};
   for (const auto& [change, words] : slips) EXPECT_THAT(own_problem(change), HasSubstr(words));
 }
@@ -194,9 +197,9 @@ TEST(DeclaredEffect, ReportsWhereItIsNotFinite) {
   ASSERT_THAT(problems_of(own), IsEmpty());
   const std::string said = only_problem(problems_on_bed(own, Machine{}));
   EXPECT_THAT(said, HasSubstr("/adds_mm@15: not finite: "));
-  EXPECT_THAT(said,
-              HasSubstr("over the bed of the machine between the bounds; this one is not at (-1219, "
-                        "-610) mm with amplitude_mm = -5"));
+  EXPECT_THAT(
+      said, HasSubstr("over the bed of the machine between the bounds; this one is not at (-1219, "
+                      "-610) mm with amplitude_mm = -5"));
 }
 
 TEST(DeclaredEffect, ReportsANonFiniteSlope) {

@@ -78,16 +78,11 @@ TEST(Formula, SlopesAgreeWithDifferences) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> draw(0.5, 1.5);
-  for (const char* text : {"a_mm * sin(phi) / cos(phi / 3)",
-                           "a_mm * exp(phi - 1) * log(phi + 2)",
-                           "sqrt(a_mm * L) * phi^3",
-                           "abs(a_mm - 7) + L / (1 + phi^2)",
-                           "min(a_mm, 9 * L) + max(L, a_mm / 99)",
-                           "k * T * (0.3 + phi)^(phi - 2)",
-                           "L * 2^phi - a_mm * phi^-1.5",
-                           "ramp(a_mm - L / 9) + step(phi) * a_mm",
-                           "-(a_mm - L)^3 / (a_mm + L)^2",
-                           "k^2 * T^2 / a_mm"}) {
+  for (const char* text : {"a_mm * sin(phi) / cos(phi / 3)", "a_mm * exp(phi - 1) * log(phi + 2)",
+                           "sqrt(a_mm * L) * phi^3", "abs(a_mm - 7) + L / (1 + phi^2)",
+                           "min(a_mm, 9 * L) + max(L, a_mm / 99)", "k * T * (0.3 + phi)^(phi - 2)",
+                           "L * 2^phi - a_mm * phi^-1.5", "ramp(a_mm - L / 9) + step(phi) * a_mm",
+                           "-(a_mm - L)^3 / (a_mm + L)^2", "k^2 * T^2 / a_mm"}) {
     const Formula f = formula(text);
     for (int round = 0; round < 20; ++round) {
       std::array<double, 5> x;
@@ -102,8 +97,7 @@ TEST(Formula, SlopesAgreeWithDifferences) {
           return (at(f, above).value - at(f, below).value) / (2.0 * h);
         };
         // Rounding 1e-16 / 1e-3, and 1e-3^4 times a fifth derivative below 1e3.
-        EXPECT_NEAR((4.0 * slope(1e-3) - slope(2e-3)) / 3.0,
-                    exact.d[i],
+        EXPECT_NEAR((4.0 * slope(1e-3) - slope(2e-3)) / 3.0, exact.d[i],
                     1e-8 * (1.0 + std::abs(exact.d[i])))
             << text << " by " << kNames[i].name;
       }
@@ -120,18 +114,9 @@ TEST(Formula, KinksHaveTheSlopeOfOneSide) {
 }
 
 TEST(Formula, AcceptsUnitsThatComeOut) {
-  for (const char* text : {"a_mm",
-                           "k * T",
-                           "L * phi + 3",
-                           "a_mm^2 / L",
-                           "sqrt(a_mm * L)",
-                           "max(0, a_mm)",
-                           "a_mm * step(T - 40)",
-                           "0.1",
-                           "L^(1/2) * a_mm^0.5",
-                           "1 + L",
-                           "min(2, 3)",
-                           "a_mm * sin(L / (100 * mm)) * T / (3 * N)"})
+  for (const char* text : {"a_mm", "k * T", "L * phi + 3", "a_mm^2 / L", "sqrt(a_mm * L)",
+                           "max(0, a_mm)", "a_mm * step(T - 40)", "0.1", "L^(1/2) * a_mm^0.5",
+                           "1 + L", "min(2, 3)", "a_mm * sin(L / (100 * mm)) * T / (3 * N)"})
     EXPECT_TRUE(Formula::parse(text, kNames, kMm).has_value()) << text;
 }
 
@@ -154,31 +139,23 @@ TEST_P(NoFormula, AnInvalidFormulaIsRefusedAtItsPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All,
-    NoFormula,
+    All, NoFormula,
     testing::Values(
         Bad{"", 0, "an empty formula", "a formula, such as 0.1 * a_mm"},
-        Bad{"a_mm * L1",
-            7,
-            "L1",
+        Bad{"a_mm * L1", 7, "L1",
             "a name that this formula may use: a_mm, L, phi, T, k, mm, N, pi"},
-        Bad{"a_mm * tan(phi)",
-            7,
-            "tan(",
+        Bad{"a_mm * tan(phi)", 7, "tan(",
             "one of the functions sin, cos, exp, log, sqrt, abs, step, ramp, min, max"},
         Bad{"max(a_mm)", 0, "max with 1 argument", "max with two arguments, as in max(a, b)"},
         Bad{"a_mm * sin()", 7, "sin with 0 arguments", "sin with one argument"},
         Bad{"a_mm * sin(phi, 2)", 7, "sin with 2 arguments", "sin with one argument"},
         Bad{"a_mm + T", 5, "mm together with N", "two values with the same unit"},
-        Bad{"sin(L)",
-            0,
-            "sin of mm",
-            "sin of a plain number; divide by a quantity with the same unit, as in sin(x / (100 * mm))"},
+        Bad{"sin(L)", 0, "sin of mm",
+            "sin of a plain number; divide by a quantity with the same unit, as in sin(x / (100 * "
+            "mm))"},
         Bad{"a_mm * L", 0, "a formula in mm^2", "one whose units come out as mm"},
         Bad{"phi", 0, "a formula in numbers without a unit", "one whose units come out as mm"},
-        Bad{"a_mm ^ phi",
-            5,
-            "mm to a power that varies",
+        Bad{"a_mm ^ phi", 5, "mm to a power that varies",
             "a plain number after ^, so that the unit is known"},
         Bad{"phi ^ L", 4, "a power of mm", "a number after ^"},
         Bad{"(a_mm", 5, "the end", "a closing bracket )"},

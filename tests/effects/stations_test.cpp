@@ -19,14 +19,9 @@ using ::testing::ElementsAre;
 // Sums of a few numbers of 3000 mm, done in another order: some units of 4.5e-13.
 constexpr double kRoundingMm = 5e-12;
 
-const std::vector<BedPoint> kPlaces = {{-1219.2, -609.6},
-                                       {1219.2, -609.6},
-                                       {0.0, 0.0},
-                                       {-1219.2, 609.6},
-                                       {310.0, -45.0},
-                                       {1219.2, 609.6},
-                                       {-250.0, 500.0},
-                                       {310.0, -45.0}};
+const std::vector<BedPoint> kPlaces = {{-1219.2, -609.6}, {1219.2, -609.6}, {0.0, 0.0},
+                                       {-1219.2, 609.6},  {310.0, -45.0},   {1219.2, 609.6},
+                                       {-250.0, 500.0},   {310.0, -45.0}};
 
 std::vector<Visit> visits_of(const std::vector<BedPoint>& places) {
   std::vector<Visit> visits;
@@ -103,8 +98,8 @@ TEST(SidePull, TakesItsForceFromTheBalanceOfTheSled) {
   const auto reading = model.at({200.0, 100.0});
   ASSERT_TRUE(reading);
   // Forces are some 100 N: rounding.
-  EXPECT_NEAR(
-      reading->pose.chains.left.horizontal_n - reading->pose.chains.right.horizontal_n, 4.0, 1e-12);
+  EXPECT_NEAR(reading->pose.chains.left.horizontal_n - reading->pose.chains.right.horizontal_n, 4.0,
+              1e-12);
 }
 
 // A yielding beam equals the rigid machine with its motors moved along the chains' pulls.

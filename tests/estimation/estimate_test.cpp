@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "grid/map/joint_fit.hpp"
 #include "grid/map/fitted_points.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::grid {
@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 using testing_support::classic;
-using testing_support::nine_holes;
 using testing_support::cut_holes;
+using testing_support::nine_holes;
 using testing_support::usual_holes;
 
 /// One machine with measured points and nine holes.
@@ -112,8 +112,9 @@ TEST(Estimate, ReadingsThatSayNothingLeaveWhatWasStated) {
   constexpr double kNothingMm = 1e6;
   const Owner own = owner(1, 4, 3);
   auto input = of_both(own);
-  input.observations = {std::make_shared<const observation::ChainLengthReadings>(
-      chain_length_readings(*length_points(own.points), {kNothingMm, kNothingMm}, 15.0, std::nullopt))};
+  input.observations = {
+      std::make_shared<const observation::ChainLengthReadings>(chain_length_readings(
+          *length_points(own.points), {kNothingMm, kNothingMm}, 15.0, std::nullopt))};
   const auto found = estimation::estimate(input);
   ASSERT_TRUE(found);
   const Eigen::MatrixXd stated = estimation::stated_knowledge(input.machine).covariance;
@@ -154,7 +155,8 @@ TEST(Estimate, UnitResultsUseTheFitsFinalWeights) {
 TEST(Estimate, LeftOutUnitEqualsAFitWithoutIt) {
   const Owner own = owner(8, 4, 3);
   estimation::EstimationInput input = of_both(own);
-  const auto units = static_cast<Eigen::Index>(own.points.points.size() + own.holes.distances.size());
+  const auto units =
+      static_cast<Eigen::Index>(own.points.points.size() + own.holes.distances.size());
   input.fixed_weights = Eigen::VectorXd::Ones(units);
   const auto whole = estimation::estimate(input);
   ASSERT_TRUE(whole);
@@ -193,9 +195,10 @@ TEST(FitTogether, MapListsTheSourceOfEachPart) {
   ASSERT_TRUE(fit);
   const auto& notes = fit->map.contents().notes;
   EXPECT_THAT(notes, testing::Contains(HasSubstr("12 points of points.json")));
-  EXPECT_THAT(notes, testing::Contains(HasSubstr("20 distances between 9 holes of holes.json (1 left out)")));
-  EXPECT_THAT(notes,
-              testing::Contains(HasSubstr("holes.json: " + words_of(own.holes, own.holes.distances[5]))));
+  EXPECT_THAT(notes, testing::Contains(
+                         HasSubstr("20 distances between 9 holes of holes.json (1 left out)")));
+  EXPECT_THAT(notes, testing::Contains(
+                         HasSubstr("holes.json: " + words_of(own.holes, own.holes.distances[5]))));
 }
 
 TEST(NormalDeviate, HasTheChanceOfStudentsT) {

@@ -117,9 +117,8 @@ TEST_F(LinearAlgebra, ProductAddsToABlockFromBlocks) {
   MatrixXd symmetric = outer(before);
   add_outer(symmetric, 0.3, a.topRows(16));
   add_outer(symmetric, -0.1, VectorXd(a.col(0).head(16)));
-  expect_near(
-      symmetric,
-      square_of(before) + 0.3 * square_of(a.topRows(16)) - 0.1 * square_of(a.col(0).head(16)));
+  expect_near(symmetric, square_of(before) + 0.3 * square_of(a.topRows(16)) -
+                             0.1 * square_of(a.col(0).head(16)));
 }
 
 TEST_F(LinearAlgebra, ProductRefusesSizesThatDoNotFit) {
@@ -318,8 +317,8 @@ VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
     table.add_product(c.output(), 0.7, a.input(is_transposed), b.input());
     keep(c);
     Placed one(columns.col(0), offset);
-    table.add_product(
-        one.output(), 0.7, a.input(is_transposed), Placed(columns.col(1), offset).input());
+    table.add_product(one.output(), 0.7, a.input(is_transposed),
+                      Placed(columns.col(1), offset).input());
     keep(one);
     Placed square(definite, offset);
     table.add_square(square.output(), -0.2, a.input(is_transposed));

@@ -58,8 +58,7 @@ TEST(LocalDesign, EqualsTheDenseDesign) {
   expect_near(weighted.design.transpose() * weighted.design, gram);
   expect_near(weighted.design.transpose() * weighted.response,
               design.transpose() * weighted_response);
-  EXPECT_NEAR(weighted.response.squaredNorm(),
-              problem.response().dot(weighted_response),
+  EXPECT_NEAR(weighted.response.squaredNorm(), problem.response().dot(weighted_response),
               kRounding * weighted.response.squaredNorm());
   EXPECT_EQ(weighted.rows, (by_row.array() > 0.0).count());
   // Any covariance will do.

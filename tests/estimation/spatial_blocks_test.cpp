@@ -26,7 +26,7 @@ TEST(SpatialBlocks, SplitColumnsIntoALowerAndAnUpperHalf) {
     seen.insert(blocks[block].begin(), blocks[block].end());
   }
   EXPECT_EQ(seen.size(), points.size());
-  const auto range = [&](const std::vector<std::size_t>& block, double model::MarkPoint::* axis) {
+  const auto range = [&](const std::vector<std::size_t>& block, double model::MarkPoint::*axis) {
     const auto [low, high] = std::minmax_element(block.begin(), block.end(), [&](auto a, auto b) {
       return points[a].mark.*axis < points[b].mark.*axis;
     });

@@ -128,8 +128,8 @@ std::vector<std::string> seeds() {
 std::string run(const std::string& program) {
   static const FormulaMap map(random_smooth_displacement(7));
   static const PlainKinematics kinematics;
-  static const Corrector corrector(
-      map, kinematics, firmware(model::ControllerKind::maslow_classic));
+  static const Corrector corrector(map, kinematics,
+                                   firmware(model::ControllerKind::maslow_classic));
   Dialect dialect;
   dialect.step_budget = 2000;
   std::string output;

@@ -29,16 +29,12 @@ TEST(ArcExtents, MatchTheExactCurve) {
     const char* plane = i % 3 == 0 ? "G17" : i % 3 == 1 ? "G18" : "G19";
     const char* words[] = {"XYIJ", "ZXKI", "YZJK"};
     const char* w = words[i % 3];
-    const std::string program =
-        fmt::format("G21 G90 F100\nG10 L2 P1 R{}\n{} G0 X0 Y0 Z0\n{} {}{:.9f} {}{:.9f} {}{:.9f} {}{:.9f} P{}\n",
-                    i % 3 == 0 ? uniform(-90.0, 90.0) : 0.0,
-                    plane,
-                    i % 2 == 0 ? "G2" : "G3",
-                    w[0], radius * (std::cos(start + sweep) - std::cos(start)),
-                    w[1], radius * (std::sin(start + sweep) - std::sin(start)),
-                    w[2], -radius * std::cos(start),
-                    w[3], -radius * std::sin(start),
-                    1 + i % 4);
+    const std::string program = fmt::format(
+        "G21 G90 F100\nG10 L2 P1 R{}\n{} G0 X0 Y0 Z0\n{} {}{:.9f} {}{:.9f} {}{:.9f} {}{:.9f} P{}\n",
+        i % 3 == 0 ? uniform(-90.0, 90.0) : 0.0, plane, i % 2 == 0 ? "G2" : "G3", w[0],
+        radius * (std::cos(start + sweep) - std::cos(start)), w[1],
+        radius * (std::sin(start + sweep) - std::sin(start)), w[2], -radius * std::cos(start), w[3],
+        -radius * std::sin(start), 1 + i % 4);
     ProgramEvents events;
     ASSERT_TRUE(run_text(program, events)) << program;
     const Move& move = events.moves.back();

@@ -80,12 +80,13 @@ TEST(RealFiles, FitTheBed) {
     auto source = LineSource::from_file((kCorpus / name).string());
     ASSERT_TRUE(source) << name;
     const auto moves = read_moves(*source, dialect);
-    const bool fits = moves && !moves->empty() && std::all_of(moves->begin(), moves->end(), [](const Move& move) {
-      const auto turns = [](double degrees) { return degrees != 0.0; };
-      return std::fabs(move.to.x_mm) <= 1219.2 && std::fabs(move.to.y_mm) <= 609.6 &&
-             move.kind != MoveKind::probe &&
-             std::none_of(move.turn_deg.begin(), move.turn_deg.end(), turns);
-    });
+    const bool fits =
+        moves && !moves->empty() && std::all_of(moves->begin(), moves->end(), [](const Move& move) {
+          const auto turns = [](double degrees) { return degrees != 0.0; };
+          return std::fabs(move.to.x_mm) <= 1219.2 && std::fabs(move.to.y_mm) <= 609.6 &&
+                 move.kind != MoveKind::probe &&
+                 std::none_of(move.turn_deg.begin(), move.turn_deg.end(), turns);
+        });
     EXPECT_EQ(fits, !is_other(name)) << name;
   }
 }
@@ -105,8 +106,7 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
     // Only the ideal controller implements tool lengths.
     const bool lengths = original.find("G43") != std::string::npos;
     const Corrector corrector(
-        map,
-        kinematics_,
+        map, kinematics_,
         firmware(lengths ? model::ControllerKind::ideal : model::ControllerKind::maslow_classic));
     const auto output = compensate(original, corrector, {}, dialect_);
     ASSERT_TRUE(output) << output.error().message();
@@ -146,8 +146,8 @@ TEST_P(RealFile, IdentityKeepsIt) {
       // Half a unit of the fourth decimal in each of three axes, and the sum's rounding.
       return distance_mm(other.to, move.to) < 0.5e-4 * 1.7321 + 1e-9;
     };
-    const auto found = std::find_if(
-        written->begin() + static_cast<std::ptrdiff_t>(at_output), written->end(), same);
+    const auto found = std::find_if(written->begin() + static_cast<std::ptrdiff_t>(at_output),
+                                    written->end(), same);
     ASSERT_NE(found, written->end()) << "the end of line " << move.line << " is missing";
     at_output = static_cast<std::size_t>(found - written->begin());
   }

@@ -18,13 +18,11 @@ struct Compensated {
   Findings findings;
 };
 
-inline Result<Compensated> compensate(const std::string& program,
-                               const Corrector& corrector,
-                               CompensateOptions options = {},
-                               const Dialect& dialect = {}) {
+inline Result<Compensated> compensate(const std::string& program, const Corrector& corrector,
+                                      CompensateOptions options = {}, const Dialect& dialect = {}) {
   Compensated result;
-  Compensator compensator(
-      corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
+  Compensator compensator(corrector, std::move(options),
+                          [&](std::string_view bytes) { result.text += bytes; });
   auto source = LineSource::from_text(program);
   const auto summary = compensator.run(source, dialect);
   if (!summary) return tl::unexpected(summary.error());
@@ -33,11 +31,9 @@ inline Result<Compensated> compensate(const std::string& program,
   return result;
 }
 
-inline VerifySummary verified(const std::string& original,
-                       const std::string& run,
-                       const Corrector& corrector,
-                       const VerifyOptions& options = {},
-                       const Dialect& dialect = {}) {
+inline VerifySummary verified(const std::string& original, const std::string& run,
+                              const Corrector& corrector, const VerifyOptions& options = {},
+                              const Dialect& dialect = {}) {
   auto a = LineSource::from_text(original);
   auto b = LineSource::from_text(run);
   const auto summary = verify(a, b, corrector, dialect, options);

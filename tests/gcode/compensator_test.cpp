@@ -38,9 +38,9 @@ TEST(Compensator, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
   const FormulaMap map(random_smooth_displacement(5));
   const Corrector corrector(map, kPlain, firmware(model::ControllerKind::ideal));
   const double tolerance = 0.05;
-  for (const char* program : {"G0 X-1100 Y-500\nF900 G1 X1100 Y500\n",
-                              "G0 X400 Y0\nF900 G2 I-400 J0\n",
-                              "G0 X20 Y10\nF900 G3 I-15 J0 Z-3\n"}) {
+  for (const char* program :
+       {"G0 X-1100 Y-500\nF900 G1 X1100 Y500\n", "G0 X400 Y0\nF900 G2 I-400 J0\n",
+        "G0 X20 Y10\nF900 G3 I-15 J0 Z-3\n"}) {
     SCOPED_TRACE(program);
     auto source = LineSource::from_text(program);
     const Move move = read_moves(source)->back();

@@ -20,10 +20,8 @@ namespace {
 
 using model::ControllerKind;
 
-constexpr ControllerKind kAll[] = {ControllerKind::ideal,
-                                   ControllerKind::maslow_classic,
-                                   ControllerKind::holey,
-                                   ControllerKind::fluidnc_wallplotter};
+constexpr ControllerKind kAll[] = {ControllerKind::ideal, ControllerKind::maslow_classic,
+                                   ControllerKind::holey, ControllerKind::fluidnc_wallplotter};
 
 std::vector<Point> chords(ControllerKind kind, const std::string& program) {
   ProgramEvents events;
@@ -80,11 +78,10 @@ TEST(FirmwareArc, GrblsChordsKeepToTheCircleAndEndWhereTheyShould) {
 
 TEST(FirmwareArc, EveryRuleGoesTheSameWayRoundInEveryPlane) {
   for (const ControllerKind kind : kAll) {
-    for (const std::string program : {"G0 X10 Y0 Z0\nF60 G3 X0 Y10 I-10\nM2\n",
-                                      "G0 X10 Y0 Z0\nF60 G2 X0 Y10 I-10\nM2\n",
-                                      "G0 X10 Y0 Z0\nF60 G3 X10 Y0 Z4 I-10\nM2\n",
-                                      "G0 X10 Y0 Z0\nG18 F60 G2 X0 Z10 I-10\nM2\n",
-                                      "G0 X0 Y10 Z0\nG19 F60 G3 Y0 Z10 J-10\nM2\n"}) {
+    for (const std::string program :
+         {"G0 X10 Y0 Z0\nF60 G3 X0 Y10 I-10\nM2\n", "G0 X10 Y0 Z0\nF60 G2 X0 Y10 I-10\nM2\n",
+          "G0 X10 Y0 Z0\nF60 G3 X10 Y0 Z4 I-10\nM2\n", "G0 X10 Y0 Z0\nG18 F60 G2 X0 Z10 I-10\nM2\n",
+          "G0 X0 Y10 Z0\nG19 F60 G3 Y0 Z10 J-10\nM2\n"}) {
       ProgramEvents events;
       ASSERT_TRUE(run_text(program, events));
       const auto ends = chords(kind, program);

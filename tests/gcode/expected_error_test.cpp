@@ -70,8 +70,7 @@ TEST(ExpectedError, CutIntoPiecesIsTheSame) {
     pieces.add(feed({-90 + 0.2 * i, 10, -3}, {-90 + 0.2 * (i + 1), 10, -3}, 1));
   // A piece may fall half into a square of 20 mm where the whole one's pieces do not.
   EXPECT_NEAR(whole.expected(HalvesMap{})->measured.rms_mm,
-              pieces.expected(HalvesMap{})->measured.rms_mm,
-              0.01);
+              pieces.expected(HalvesMap{})->measured.rms_mm, 0.01);
 }
 
 TEST(ExpectedError, ListsUnmeasuredPartsSeparately) {

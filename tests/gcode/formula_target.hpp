@@ -74,10 +74,8 @@ inline FormulaMap::Displacement random_smooth_displacement(std::uint64_t seed) {
     const double wavelength_mm = 700.0 + 2300.0 * uniform();
     const double direction = 2.0 * std::numbers::pi * uniform();
     const double k = 2.0 * std::numbers::pi / wavelength_mm;
-    waves.push_back({k * std::cos(direction),
-                     k * std::sin(direction),
-                     2.0 * std::numbers::pi * uniform(),
-                     2.0 * uniform() - 1.0,
+    waves.push_back({k * std::cos(direction), k * std::sin(direction),
+                     2.0 * std::numbers::pi * uniform(), 2.0 * uniform() - 1.0,
                      2.0 * uniform() - 1.0});
   }
   const double shift_x = 1.0 + 2.0 * uniform();

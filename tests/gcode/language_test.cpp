@@ -17,14 +17,9 @@ TEST(Language, NotesDifferencesBetweenControllers) {
   ASSERT_TRUE(run_text("G20 F10\nG91.1\nG28\n/G4 P1\n", events));
   std::vector<std::string> names;
   for (const Note& note : events.notes) names.emplace_back(note.name);
-  EXPECT_THAT(names,
-              testing::UnorderedElementsAre("feed_before_units",
-                                            "dotted_code",
-                                            "home_assumed",
-                                            "state_left",
-                                            "deletable_line",
-                                            "dwell_unit",
-                                            "no_program_end"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("feed_before_units", "dotted_code",
+                                                   "home_assumed", "state_left", "deletable_line",
+                                                   "dwell_unit", "no_program_end"));
 }
 
 TEST(Language, WritesOutParametersInMessages) {
@@ -40,9 +35,10 @@ TEST(Language, WritesOutParametersInMessages) {
 
 TEST(Language, KnowsTheToolInTheSpindle) {
   ProgramEvents events;
-  ASSERT_TRUE(run_text("(print, #5400)\nT3\n(print, #5400)\nM6\n(print, #5400)\nM61 Q7\n"
-                       "(print, #5400 #<_current_tool>)\n",
-                       events));
+  ASSERT_TRUE(
+      run_text("(print, #5400)\nT3\n(print, #5400)\nM6\n(print, #5400)\nM61 Q7\n"
+               "(print, #5400 #<_current_tool>)\n",
+               events));
   std::vector<std::string> told;
   for (const auto& comment : events.comments) told.push_back(comment.text);
   EXPECT_THAT(told,

@@ -34,9 +34,7 @@ class Believes final : public model::ControllerKinematics {
 
 TEST(MechanismPath, CompensatesAndVerifiesAStraightPathOfAnUnknownMechanism) {
   const grid::FittedMechanism fitted{std::make_shared<const model::ToyMechanism>(-1003.0, 1206.0),
-                                     0.01 * Eigen::Matrix3d::Identity(),
-                                     0.3,
-                                     60.0};
+                                     0.01 * Eigen::Matrix3d::Identity(), 0.3, 60.0};
   const auto map =
       grid::MechanismMap::of(fitted, {{-500.0, -1400.0}, {500.0, -1400.0}, {0.0, -600.0}});
   const Believes controller(model::ToyMechanism(-1000.0, 1200.0));

@@ -57,7 +57,8 @@ bool follows(const Polyline& path, const Polyline& track, double distance) {
                         piece = {path[next++], false, 100.0, next};
                         return true;
                       });
-  if (matcher.begin({0.0, path.front(), track.front()}) != PathMatcher::Outcome::follows) return false;
+  if (matcher.begin({0.0, path.front(), track.front()}) != PathMatcher::Outcome::follows)
+    return false;
   for (std::size_t i = 1; i < track.size(); ++i) {
     if (matcher.advance({track[i], false, 100.0, i}) != PathMatcher::Outcome::follows) return false;
   }
@@ -77,8 +78,7 @@ TEST(PathMatcher, DecidesTheFrechetDistance) {
     Polyline path{{0.0, 0.0, 0.0}};
     const int corners = 3 + round % 9;
     for (int i = 0; i < corners; ++i) {
-      path.push_back({path.back().x_mm + uniform(2.0),
-                      path.back().y_mm + uniform(2.0),
+      path.push_back({path.back().x_mm + uniform(2.0), path.back().y_mm + uniform(2.0),
                       path.back().z_mm + uniform(0.5)});
     }
     Polyline track;

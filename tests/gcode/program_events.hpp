@@ -28,8 +28,7 @@ struct ProgramEvents final : Sink {
   bool ended = false;
 };
 
-inline Result<ProgramSummary> run_text(const std::string& text,
-                                       Sink& sink,
+inline Result<ProgramSummary> run_text(const std::string& text, Sink& sink,
                                        const Dialect& dialect = {}) {
   auto source = LineSource::from_text(text);
   return run_program(source, dialect, sink);

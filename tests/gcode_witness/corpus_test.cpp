@@ -41,8 +41,7 @@ std::string kind_of_difference(const Rows& differences, const std::string& name)
   return row == differences.end() ? "" : row->second.at(0);
 }
 
-void expect_refused(const StoredProgram& program,
-                    const std::vector<std::string>& problem,
+void expect_refused(const StoredProgram& program, const std::vector<std::string>& problem,
                     const std::string& how) {
   const Answer answer = limited(program.text);
   EXPECT_FALSE(answer.accepted);
@@ -57,9 +56,11 @@ void expect_accepted(const StoredProgram& program, const std::string& how) {
   EXPECT_TRUE(answer.accepted) << answer.refusal;
   const auto found = difference(program.linuxcnc, answer);
   if (how == "looser") {
-    EXPECT_FALSE(program.linuxcnc.accepted) << "LinuxCNC accepts it: remove it from differences.tsv";
+    EXPECT_FALSE(program.linuxcnc.accepted)
+        << "LinuxCNC accepts it: remove it from differences.tsv";
   } else if (how == "moves") {
-    EXPECT_TRUE(program.linuxcnc.accepted && found) << "the moves agree: remove it from differences.tsv";
+    EXPECT_TRUE(program.linuxcnc.accepted && found)
+        << "the moves agree: remove it from differences.tsv";
   } else {
     EXPECT_EQ(found.value_or(""), "");
   }
@@ -99,8 +100,7 @@ TEST(Corpus, RandomProgramsGoWhereLinuxCncGoes) {
   EXPECT_GE(programs.size(), 200U);
   for (const StoredProgram& program : programs) {
     accepted += program.linuxcnc.accepted ? 1U : 0U;
-    const auto found =
-        unlisted_difference(program.text, program.linuxcnc, limited(program.text));
+    const auto found = unlisted_difference(program.text, program.linuxcnc, limited(program.text));
     EXPECT_EQ(found.value_or(""), "") << program.name << ":\n" << program.text;
   }
   EXPECT_GE(accepted * 100, programs.size() * kLeastAccepted)

@@ -68,7 +68,8 @@ TEST(PathDistance, IsSymmetricAndOrdered) {
   const std::vector<Place> b = {{0, 1, 0}, {5, 2, 1}, {11, 0, 0}};
   const std::vector<Place> back(b.rbegin(), b.rend());
   const double there = follower::path_distance_mm(a, b, 100.0);
-  EXPECT_NEAR(there, follower::path_distance_mm(b, a, 100.0), 0.004 * there);  // a part in 500, twice
+  EXPECT_NEAR(there, follower::path_distance_mm(b, a, 100.0),
+              0.004 * there);  // a part in 500, twice
   EXPECT_GT(follower::path_distance_mm(a, back, 100.0), 10.0);
 }
 
@@ -76,7 +77,9 @@ TEST(PathDistance, IsSymmetricAndOrdered) {
 /// position.
 void reach(std::vector<Place>& places, const Place& to) {
   // Nine decimals through inches.
-  const auto near = [&](std::size_t axis) { return std::fabs(places.back()[axis] - to[axis]) <= 1e-6; };
+  const auto near = [&](std::size_t axis) {
+    return std::fabs(places.back()[axis] - to[axis]) <= 1e-6;
+  };
   if (places.empty() || !(near(0) && near(1) && near(2))) places.push_back(to);
 }
 

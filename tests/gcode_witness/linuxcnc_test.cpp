@@ -69,8 +69,8 @@ TEST_F(LinuxCnc, GoesWhereWeGoOnRealFiles) {
   dialect.tools_have_no_diameter = true;  // as in the tool table that LinuxCNC gets
   const auto answers = ask_linuxcnc(asked);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto found = unlisted_difference(
-        asked[i].text, read_truth(answers[i].text), ours(asked[i].text, dialect));
+    const auto found = unlisted_difference(asked[i].text, read_truth(answers[i].text),
+                                           ours(asked[i].text, dialect));
     if (asked[i].name == kOfMachineHeights) {
       EXPECT_TRUE(found) << "it agrees: compare it like the others";
     } else {

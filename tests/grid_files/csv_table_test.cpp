@@ -52,8 +52,7 @@ TEST_P(SameTable, ReadsEqually) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Ways,
-    SameTable,
+    Ways, SameTable,
     testing::Values(
         "x_mm,y_mm\n-1112.8375,508\n635,-12.7\n",
         "\xEF\xBB\xBFx_mm;y_mm\r\n-1112,8375;508\r\n635;-12,7\r\n;\r\n;;;;\r\n,,\r\n",
@@ -69,8 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         "12.7\n",
         // From a spreadsheet with decimal commas, saved with commas between cells.
         "x_mm,y_mm\n\"-1112,8375\",508\n635,\"-12,7\"\n",
-        "x_mm,y_mm\n\"-1,112.8375\",508\n635,-12.7\n",
-        "x_mm;y_mm\n-1.112,8375;508\n635;-12,7\n",
+        "x_mm,y_mm\n\"-1,112.8375\",508\n635,-12.7\n", "x_mm;y_mm\n-1.112,8375;508\n635;-12,7\n",
         // A French one: a narrow space between thousands, a long minus, a unit behind a
         // space that does not break.
         "x_mm;y_mm\n\xE2\x88\x92"
@@ -135,23 +133,9 @@ TEST(LengthText, AcceptsOtherUnitsAndInchFractions) {
   EXPECT_DOUBLE_EQ(length_with_unit_mm("3' 8 5/16\"").value(), 44.3125 * 25.4);
   EXPECT_DOUBLE_EQ(length_with_unit_mm("-3'-8.5''").value(), -44.5 * 25.4);
   EXPECT_DOUBLE_EQ(length_with_unit_mm("3 ft").value(), 914.4);
-  for (const char* none : {"",
-                           "12",
-                           "mm",
-                           "13/8",
-                           "1/0",
-                           "1/2 mm",
-                           "--1 mm",
-                           "1e999 mm",
-                           "a/b",
-                           "1 2/3/4",
-                           "12 parsecs",
-                           "nan mm",
-                           "3' 12\"",
-                           "3' 8 mm",
-                           "' 8\"",
-                           "3' -8 -5",
-                           "-"}) {
+  for (const char* none :
+       {"", "12", "mm", "13/8", "1/0", "1/2 mm", "--1 mm", "1e999 mm", "a/b", "1 2/3/4",
+        "12 parsecs", "nan mm", "3' 12\"", "3' 8 mm", "' 8\"", "3' -8 -5", "-"}) {
     EXPECT_FALSE(length_with_unit_mm(none)) << none;
   }
 }

@@ -64,16 +64,9 @@ TEST_P(Damage, AnotherByteAnywhere) {
 
 TEST_P(Damage, NonNumbersAnywhere) {
   SCOPED_TRACE(::testing::Message() << "seed " << kDamageSeed);
-  const std::string words[] = {"NaN",
-                               "1e999",
-                               "-Infinity",
-                               "null",
-                               "1e-999",
-                               "99999999999999999999",
-                               "",
-                               "\n",
-                               "{}",
-                               "\"\""};
+  const std::string words[] = {
+      "NaN", "1e999", "-Infinity", "null", "1e-999", "99999999999999999999",
+      "",    "\n",    "{}",        "\"\""};
   std::mt19937_64 bits(kDamageSeed);
   for (std::size_t place = 0; place < text_.size(); place += step_) {
     std::string damaged = text_;
@@ -83,9 +76,7 @@ TEST_P(Damage, NonNumbersAnywhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixtures,
-                         Damage,
-                         ::testing::ValuesIn(fixtures_in("good")),
+INSTANTIATE_TEST_SUITE_P(Fixtures, Damage, ::testing::ValuesIn(fixtures_in("good")),
                          [](const auto& tested) { return test_name_of(tested.param); });
 
 }  // namespace

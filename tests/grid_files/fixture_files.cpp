@@ -52,9 +52,13 @@ Outcome outcome_of(const std::string& kind, const std::string& text, const std::
     return Outcome{written, messages_of(read.warnings), {}};
   };
   const auto grid = [&](const auto& read) { return with_warnings(read, write_grid(read.grid)); };
-  const auto machine = [&](const auto& read) { return with_warnings(read, write_machine(read.machine)); };
+  const auto machine = [&](const auto& read) {
+    return with_warnings(read, write_machine(read.machine));
+  };
   const auto belts = [&](const auto& read) { return with_warnings(read, write_belts(read.belts)); };
-  const auto plotter = [&](const auto& read) { return with_warnings(read, write_plotter(read.plotter)); };
+  const auto plotter = [&](const auto& read) {
+    return with_warnings(read, write_plotter(read.plotter));
+  };
   const auto holes = [&](const auto& read) { return with_warnings(read, write_holes(read.holes)); };
   if (kind == "grid") return grid(parse_grid(text, name));
   if (kind == "machine") return machine(parse_machine(text, name));
@@ -64,7 +68,8 @@ Outcome outcome_of(const std::string& kind, const std::string& text, const std::
   if (kind == "maslow4") return belts(parse_maslow4(text, name));
   if (kind == "plottersettings") return plotter(parse_plotter_settings(text, name));
   if (kind == "points") return {points_written(parse_points(text, name)), {}, {}};
-  if (kind == "optical") return {write_grid(parse_optical(text, name, optical_options()).grid), {}, {}};
+  if (kind == "optical")
+    return {write_grid(parse_optical(text, name, optical_options()).grid), {}, {}};
   if (kind == "diagnosis") return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
   if (kind == "anchors") return {write_anchors(parse_anchors(text, name)), {}, {}};
   if (kind == "plotter") return {write_plotter(parse_plotter(text, name)), {}, {}};
@@ -103,9 +108,8 @@ std::vector<FixtureFile> fixtures_in(const std::string& folder) {
     if (entry.path().extension() == ".expect" || entry.path().extension() == ".md") continue;
     fixtures.push_back({entry.path(), name.substr(0, name.find('_'))});
   }
-  std::sort(fixtures.begin(), fixtures.end(), [](const FixtureFile& a, const FixtureFile& b) {
-    return a.path < b.path;
-  });
+  std::sort(fixtures.begin(), fixtures.end(),
+            [](const FixtureFile& a, const FixtureFile& b) { return a.path < b.path; });
   return fixtures;
 }
 

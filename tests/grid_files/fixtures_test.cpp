@@ -27,9 +27,7 @@ TEST_P(BadInput, IsRefusedWithExactlyItsProblems) {
   EXPECT_THAT(read_fixture(GetParam()).problems, UnorderedElementsAreArray(each_with(expected)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixtures,
-                         BadInput,
-                         ::testing::ValuesIn(fixtures_in("bad")),
+INSTANTIATE_TEST_SUITE_P(Fixtures, BadInput, ::testing::ValuesIn(fixtures_in("bad")),
                          [](const auto& tested) { return test_name_of(tested.param); });
 
 class GoodInput : public ::testing::TestWithParam<FixtureFile> {};
@@ -43,7 +41,7 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
   // The output is a chaintrue file for every input.
   std::string kind = "points";
   // A diagnosis contains a machine, and holes or a grid may.
-  for (const char* known : 
+  for (const char* known :
        {"diagnosis", "holes", "belts", "anchors", "grid", "machine", "plotter", "drawing"}) {
     if (kind == "points" &&
         first.written.find(std::string("chaintrue_") + known) != std::string::npos)
@@ -54,9 +52,7 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
   EXPECT_EQ(again.written, first.written);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixtures,
-                         GoodInput,
-                         ::testing::ValuesIn(fixtures_in("good")),
+INSTANTIATE_TEST_SUITE_P(Fixtures, GoodInput, ::testing::ValuesIn(fixtures_in("good")),
                          [](const auto& tested) { return test_name_of(tested.param); });
 
 }  // namespace

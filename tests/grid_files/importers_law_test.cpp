@@ -167,9 +167,8 @@ struct FoundNumber {
 };
 
 std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -221,9 +220,7 @@ std::vector<FoundNumber> numbers_of(const std::string& text) {
       continue;
     for (std::sregex_iterator it(code.begin(), code.end(), number), end; it != end; ++it) {
       found.push_back({begin + static_cast<std::size_t>(it->position(2)),
-                       static_cast<std::size_t>(it->length(2)),
-                       line,
-                       folder});
+                       static_cast<std::size_t>(it->length(2)), line, folder});
     }
   }
   return found;
@@ -274,8 +271,7 @@ TEST(Importers, HonourOrNameEveryNumber) {
       const bool is_whole = digits.find('.') == std::string::npos;
       const bool is_honoured = [&] {
         for (const std::string& other : {is_whole ? with_another_digit(digits) : digits + "1",
-                                         std::string("0.01"),
-                                         "9" + digits}) {
+                                         std::string("0.01"), "9" + digits}) {
           std::string text = file.text;
           text.replace(number.at, number.length, other);
           const Answer changed = (*file.importer)(text);
@@ -298,11 +294,9 @@ TEST(Importers, HonourOrNameEveryNumber) {
 TEST(Importers, AnswerOrRefuseEveryFile) {
   std::size_t answered = 0, refused = 0;
   static const std::regex no_number(R"(\b(nan|inf)\b)", std::regex::icase);
-  for (const auto& folder : {kFixtures,
-                             kReports,
-                             kReports.parent_path() / "gcode",
-                             kReports.parent_path() / "maslow4",
-                             kReports.parent_path() / "repro"}) {
+  for (const auto& folder :
+       {kFixtures, kReports, kReports.parent_path() / "gcode", kReports.parent_path() / "maslow4",
+        kReports.parent_path() / "repro"}) {
     if (!std::filesystem::exists(folder)) continue;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
       constexpr std::uintmax_t kLargest =

@@ -88,10 +88,9 @@ TEST(JsonText, LayoutDependsOnTheValuesOnly) {
 
 TEST(JsonText, KeepsTheOrderOfKeysAndNamesDuplicates) {
   EXPECT_EQ(compact_json(parse(R"({"z": 1, "a": 2})")), R"({"z": 1, "a": 2})");
-  EXPECT_THAT(
-      problems_of_text(R"({"a": [0, {"b/c": 1, "b/c": 2}], "d": 3, "d": [4]})"),
-      ElementsAre("file: /a/1/b~1c: found 2, expected this key only once",
-                  "file: /d: found a list, expected this key only once"));
+  EXPECT_THAT(problems_of_text(R"({"a": [0, {"b/c": 1, "b/c": 2}], "d": 3, "d": [4]})"),
+              ElementsAre("file: /a/1/b~1c: found 2, expected this key only once",
+                          "file: /d: found a list, expected this key only once"));
 }
 
 struct Broken {
@@ -108,8 +107,7 @@ TEST_P(BrokenJson, IsNamedByLineAndColumn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Texts,
-    BrokenJson,
+    Texts, BrokenJson,
     ::testing::Values(
         Broken{"", "file: found an empty file, expected JSON text"},
         Broken{" \n\t", "file: found an empty file"},
@@ -158,7 +156,8 @@ TEST(Problems, ListTheFirstHundredAndCountTheRest) {
     problems.add("/x", "1", ProblemKind::out_of_range, std::to_string(i));
   const auto messages = messages_of([&] { problems.throw_if_any(); });
   ASSERT_EQ(messages.size(), 101U);
-  EXPECT_EQ(messages.back(), "file: found 40 more problems, expected the problems above to be corrected first");
+  EXPECT_EQ(messages.back(),
+            "file: found 40 more problems, expected the problems above to be corrected first");
 }
 
 TEST(Problems, ListFiveOfAKindAndCountTheRest) {

@@ -30,14 +30,10 @@ void expect(const Case& wanted, NumberForm form) {
 }
 
 TEST(ParseDouble, ReadsAsMuchAsIsANumber) {
-  for (const Case& wanted : {Case{"12.5", 12.5, 4},
-                             Case{"-.5e1x", -5.0, 5},
-                             Case{"5.", 5.0, 2},
-                             Case{"1e+", 1.0, 1},
-                             Case{"0x10", 0.0, 1},
-                             Case{"4.9e-324", 4.9e-324, 8},
-                             Case{"0e999", 0.0, 5},
-                             Case{"-inf", -HUGE_VAL, 4}}) {
+  for (const Case& wanted :
+       {Case{"12.5", 12.5, 4}, Case{"-.5e1x", -5.0, 5}, Case{"5.", 5.0, 2}, Case{"1e+", 1.0, 1},
+        Case{"0x10", 0.0, 1}, Case{"4.9e-324", 4.9e-324, 8}, Case{"0e999", 0.0, 5},
+        Case{"-inf", -HUGE_VAL, 4}}) {
     expect(wanted, NumberForm::general);
   }
 }

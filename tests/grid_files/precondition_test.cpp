@@ -35,7 +35,8 @@ TEST(Precondition, ReportsItsValues) {
 TEST(Precondition, RefusesExtremesOfAnEmptySet) {
   const std::vector<double> nothing;
   EXPECT_THAT(refusal_of([&] { (void)max_element(nothing); }), ::testing::HasSubstr("0 values"));
-  EXPECT_THAT(refusal_of([&] { (void)min_element(nothing, std::greater<>()); }), ::testing::HasSubstr("0 values"));
+  EXPECT_THAT(refusal_of([&] { (void)min_element(nothing, std::greater<>()); }),
+              ::testing::HasSubstr("0 values"));
   EXPECT_THAT(refusal_of([&] { (void)minmax_element(nothing); }), ::testing::HasSubstr("0 values"));
 }
 
@@ -53,8 +54,7 @@ TEST_P(BrokenBy, ShowsNonFiniteValues) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Sites,
-    BrokenBy,
+    Sites, BrokenBy,
     ::testing::Values(
         Site{"normal_quantile", [](double bad) { (void)normal_quantile(bad); }},
         Site{"portable_log", [](double bad) { (void)portable_log(bad); }},

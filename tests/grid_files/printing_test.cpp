@@ -14,10 +14,9 @@
 namespace chaintrue {
 namespace {
 
-constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(),
-                           -std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity(),
-                           -std::numeric_limits<double>::infinity()};
+constexpr double kBad[] = {
+    std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::quiet_NaN(),
+    std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 TEST(Printing, RefusesNonFiniteNumbers) {
   for (const double bad : kBad) {

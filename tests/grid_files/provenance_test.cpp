@@ -78,10 +78,9 @@ TEST_F(Sources, AreOrderedWithoutDuplicates) {
   (void)read_whole_file(path("a.csv", "first"));
   (void)read_whole_file(second);
   (void)read_whole_file(path("b.csv", "changed"));
-  EXPECT_THAT(sources_read(),
-              ElementsAre(SourceFile{"b.csv", digest_of("second")},
-                          SourceFile{"a.csv", digest_of("first")},
-                          SourceFile{"b.csv", digest_of("changed")}));
+  EXPECT_THAT(sources_read(), ElementsAre(SourceFile{"b.csv", digest_of("second")},
+                                          SourceFile{"a.csv", digest_of("first")},
+                                          SourceFile{"b.csv", digest_of("changed")}));
   forget_sources();
   EXPECT_THAT(sources_read(), IsEmpty());
 }

@@ -51,7 +51,8 @@ const Slip kSlips[] = {
     {"y from the upper edge down", ProblemKind::constant_offset, 1, 0, 0, 0, -1, 609.6},
     {"y from the upper edge", ProblemKind::constant_offset, 1, 0, 0, 0, 1, -609.6},
     {"from the left motor down", ProblemKind::constant_offset, 1, 0, 1489.2, 0, -1, 1072.6},
-    {"from the lower right corner leftwards", ProblemKind::constant_offset, -1, 0, 1219.2, 0, 1, 609.6},
+    {"from the lower right corner leftwards", ProblemKind::constant_offset, -1, 0, 1219.2, 0, 1,
+     609.6},
     {"inches", ProblemKind::other_unit, kPerMm, 0, 0, 0, kPerMm, 0},
     {"x in inches", ProblemKind::other_unit, kPerMm, 0, 0, 0, 1, 0},
     {"columns exchanged", ProblemKind::axes, 0, 1, 0, 1, 0, 0},
@@ -62,7 +63,8 @@ const Slip kSlips[] = {
 TEST(Transformations, AreNamedForAllRowsAndForATail) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const MeasuredGrid sound = sound_grid(seed);
-    EXPECT_FALSE(check_points(sound).whole) << "seed " << seed << ": " << check_points(sound).whole->sentence();
+    EXPECT_FALSE(check_points(sound).whole)
+        << "seed " << seed << ": " << check_points(sound).whole->sentence();
     for (const Slip& slip : kSlips) {
       // The middle of the list, and a place where no row of marks begins.
       for (const std::size_t from : {std::size_t{0}, kRows / 2, kRows / 2 + 2}) {
@@ -71,7 +73,8 @@ TEST(Transformations, AreNamedForAllRowsAndForATail) {
         MeasuredGrid spoilt = sound;
         for (std::size_t i = from; i < kRows; ++i) {
           MarkPoint& m = spoilt.points[i].mark;
-          m = {slip.xx * m.x_mm + slip.xy * m.y_mm + slip.x0, slip.yx * m.x_mm + slip.yy * m.y_mm + slip.y0};
+          m = {slip.xx * m.x_mm + slip.xy * m.y_mm + slip.x0,
+               slip.yx * m.x_mm + slip.yy * m.y_mm + slip.y0};
         }
         const auto found = check_points(spoilt).whole;
         ASSERT_TRUE(found);

@@ -36,8 +36,7 @@ inline MeasuredMachine measured_machine(std::uint64_t seed) {
 }
 
 inline grid::MeasuredGrid read_at(const std::vector<model::MarkPoint>& marks,
-                                  const model::Machine& machine,
-                                  grid::Random& random) {
+                                  const model::Machine& machine, grid::Random& random) {
   const model::ReadingModel model(machine);
   grid::MeasuredGrid grid;
   grid.noise = grid::StatedNoise{kNoiseMm, 0.0, 15.0};
@@ -66,32 +65,22 @@ inline const std::vector<MachineChange>& machine_changes() {
   using model::Change;
   static const std::vector<MachineChange> changes = {
       {"nothing", grid::CheckVerdict::valid, Change::nothing, [](auto&, auto&) {}},
-      {"zeros shifted by up to 3 mm",
-       grid::CheckVerdict::valid_after_rezeroing,
-       Change::zero,
+      {"zeros shifted by up to 3 mm", grid::CheckVerdict::valid_after_rezeroing, Change::zero,
        [](model::Machine& machine, grid::Random& random) {
          machine.chain_zero.left_mm += random.uniform(-3.0, 3.0);
          machine.chain_zero.right_mm += random.uniform(-3.0, 3.0);
        }},
-      {"one tooth skipped",
-       grid::CheckVerdict::valid_after_rezeroing,
-       Change::tooth,
+      {"one tooth skipped", grid::CheckVerdict::valid_after_rezeroing, Change::tooth,
        [](model::Machine& machine, grid::Random& random) {
          const double skip_mm = random.uniform() < 0.5 ? -6.35 : 6.35;
          (random.uniform() < 0.5 ? machine.chain_zero.left_mm : machine.chain_zero.right_mm) +=
              skip_mm;
        }},
-      {"both chains grown",
-       grid::CheckVerdict::measure_again,
-       Change::pitch,
+      {"both chains grown", grid::CheckVerdict::measure_again, Change::pitch,
        [](model::Machine& machine, auto&) { grow(machine, "both"); }},
-      {"left chain grown",
-       grid::CheckVerdict::measure_again,
-       Change::pitch,
+      {"left chain grown", grid::CheckVerdict::measure_again, Change::pitch,
        [](model::Machine& machine, auto&) { grow(machine, "left"); }},
-      {"right chain grown",
-       grid::CheckVerdict::measure_again,
-       Change::pitch,
+      {"right chain grown", grid::CheckVerdict::measure_again, Change::pitch,
        [](model::Machine& machine, auto&) { grow(machine, "right"); }}};
   return changes;
 }

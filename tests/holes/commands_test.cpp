@@ -44,8 +44,7 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
     return filled;
   };
   const grid::files::ReadHoles planned = grid::files::parse_holes(
-      with_readings([](const std::string& as_commanded) { return as_commanded; }),
-      "list.csv",
+      with_readings([](const std::string& as_commanded) { return as_commanded; }), "list.csv",
       with_machine);
   grid::synthetic::HolesSpec spec;
   spec.draw_settings = true;

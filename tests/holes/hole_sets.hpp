@@ -43,8 +43,7 @@ inline grid::synthetic::SyntheticHoles cut_holes(std::uint64_t seed) {
 }
 
 /// Root mean square over the bed of a map's error on the sheet.
-inline double tool_rms_mm(const grid::CompensationMap& map,
-                          const model::Machine& truth,
+inline double tool_rms_mm(const grid::CompensationMap& map, const model::Machine& truth,
                           const model::SheetPlacement& sheet) {
   grid::synthetic::SyntheticAnswer answer;
   answer.machine = truth;

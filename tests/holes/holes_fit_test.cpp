@@ -14,8 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 using testing_support::classic;
-using testing_support::nine_holes;
 using testing_support::cut_holes;
+using testing_support::nine_holes;
 using testing_support::usual_holes;
 
 /// Nine holes with each edge measured from two of them.
@@ -133,7 +133,8 @@ TEST(HolesFit, LeftOutPredictionEqualsAFitWithoutTheReading) {
   design.hole_sigma_mm = 0.0;  // so that a hole's own error does not correlate readings
   design.noise_dof = 1e9;      // so that the noise is not estimated again
   design.tape.sigma_mm = 2.0;  // and no reading is an outlier
-  design.tape.tape_zero_offset_sigma_mm = 0.0;  // so that the distance of two holes is what is predicted
+  design.tape.tape_zero_offset_sigma_mm =
+      0.0;  // so that the distance of two holes is what is predicted
   MeasuredHoles quiet = design;
   quiet.tape.sigma_mm = 0.5;
   auto made = synthetic::simulate_holes(quiet, usual_holes(13));
@@ -150,7 +151,8 @@ TEST(HolesFit, LeftOutPredictionEqualsAFitWithoutTheReading) {
     const model::MarkPoint b = fit->distances.front().holes[distance.to].predicted;
     const double predicted = std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
     // The two differ by the curvature of the model over the change by one reading, a few 1e-3 mm.
-    EXPECT_NEAR(whole->distances.front().distances[k].left_out_mm, distance.distance_mm - predicted, 0.01);
+    EXPECT_NEAR(whole->distances.front().distances[k].left_out_mm, distance.distance_mm - predicted,
+                0.01);
   }
 }
 

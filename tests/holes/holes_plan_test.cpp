@@ -65,9 +65,8 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
   }
   // Unknowns that a fit without edges cannot determine are known to the tape's accuracy.
   const auto known = [&plan](std::string_view what) {
-    return std::find_if(plan->knowledge.begin(), plan->knowledge.end(), [&](const auto& one) {
-      return one.name == what;
-    });
+    return std::find_if(plan->knowledge.begin(), plan->knowledge.end(),
+                        [&](const auto& one) { return one.name == what; });
   };
   for (const char* what : {"the whole job, sideways", "the whole job, up or down"}) {
     ASSERT_NE(known(what), plan->knowledge.end());
@@ -111,8 +110,8 @@ TEST(HolesPlan, BeatsALatticeOfTheSameSize) {
   }
   const auto fit = joint_fit(lattice);
   ASSERT_TRUE(fit);
-  EXPECT_LT(plan->expected_rms_mm,
-            tool_sigma_mm(classic(), fit->estimate.knowledge.covariance) / fit->estimate.noise_factor);
+  EXPECT_LT(plan->expected_rms_mm, tool_sigma_mm(classic(), fit->estimate.knowledge.covariance) /
+                                       fit->estimate.noise_factor);
 }
 
 TEST(HolesPlan, MoreDistancesAndABetterTapeReduceTheError) {
@@ -145,7 +144,8 @@ TEST(HolesPlan, ExcludesTheSheetsPlaceFromTheEffects) {
   MeasuredHoles between = testing_support::nine_holes();
   const auto sigmas_of = [](const MeasuredHoles& set) {
     std::map<std::pair<std::string, std::string>, double> sigmas;
-    for (const DetectableEffect& one : detectable_effects(set)) sigmas[{one.effect, one.side}] = one.sigmas;
+    for (const DetectableEffect& one : detectable_effects(set))
+      sigmas[{one.effect, one.side}] = one.sigmas;
     return sigmas;
   };
   MeasuredHoles placed = between;

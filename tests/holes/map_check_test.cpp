@@ -55,8 +55,7 @@ TEST(MapCheck, FindsChangesFromThePlannedPoints) {
     if (check->verdict != CheckVerdict::valid_after_rezeroing) continue;
     // Five readings of 0.3 mm and the map's own error: 0.4 mm; three of these.
     EXPECT_NEAR(check->new_zero_mm[0] - mapped().map.machine()->chain_zero.left_mm,
-                changed.chain_zero.left_mm - mapped().truth.chain_zero.left_mm,
-                1.2);
+                changed.chain_zero.left_mm - mapped().truth.chain_zero.left_mm, 1.2);
   }
 }
 
@@ -100,9 +99,9 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   }
   for (const model::Side side : model::kSides) {
     // Zeros of 2 mm take 5 * 2^2 / 200^2 of it at most.
-    EXPECT_NEAR(reply->operator[](side) / (model::kPitchGrowthSigma * std::sqrt(squares[side]) / kPoorMm),
-                1.0,
-                1e-3);
+    EXPECT_NEAR(
+        reply->operator[](side) / (model::kPitchGrowthSigma * std::sqrt(squares[side]) / kPoorMm),
+        1.0, 1e-3);
   }
 }
 
@@ -156,8 +155,8 @@ TEST(MapCheck, HolesFindASkippedToothAndAGrownPitch) {
   const auto made = testing_support::cut_holes(4);
   const CompensationMap map = joint_fit(made.set)->map;
   const auto verdict = [&map](const model::Machine& truth) {
-    const auto again = synthetic::simulate_holes(
-        testing_support::nine_holes(), testing_support::usual_holes(5), truth);
+    const auto again = synthetic::simulate_holes(testing_support::nine_holes(),
+                                                 testing_support::usual_holes(5), truth);
     return check_map(map, again->set)->verdict;
   };
   EXPECT_EQ(verdict(made.truth), CheckVerdict::valid);
@@ -212,8 +211,7 @@ TEST(MapCheck, RepeatsOfAMarkEqualSingleReadings) {
   ASSERT_EQ(check_map(one.map, apart)->residuals.size(), 40u);
   // The marks' own 1e-7 mm over 0.3 mm of noise, and rounding.
   expect_equal(of_the_machine(one.map, {"together", together}),
-               of_the_machine(one.map, {"apart", apart}),
-               1e-6);
+               of_the_machine(one.map, {"apart", apart}), 1e-6);
 }
 
 TEST(MapCheck, RepeatsOfADistanceEqualSingleReadings) {
@@ -235,14 +233,12 @@ TEST(MapCheck, RepeatsOfADistanceEqualSingleReadings) {
     one.sigma_mm = 1.0 / std::sqrt(first + second);
   }
   ASSERT_EQ(check_map(map, together)->residuals.size(), made.set.distances.size());
-  expect_equal(of_the_machine(map, {"together", together}),
-               of_the_machine(map, {"mean", mean}),
+  expect_equal(of_the_machine(map, {"together", together}), of_the_machine(map, {"mean", mean}),
                1e-9);  // rounding
 }
 
 /// Readings at marks of a displaced sheet.
-MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet,
-                        const model::Machine& machine,
+MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet, const model::Machine& machine,
                         std::uint64_t seed) {
   Random random(seed);
   std::vector<MarkPoint> places;
@@ -278,8 +274,7 @@ TEST(MapCheck, AHandLaidSheetWithZeroSigmasIsExact) {
   laid.sheet = SheetUncertainty{0.0, 0.0};
   // A sheet held to 1e-6 mm and 1e-9 rad against noise of 0.3 mm.
   expect_equal(of_the_machine(mapped().map, {"exact", exact}),
-               of_the_machine(mapped().map, {"laid", laid}),
-               1e-6);
+               of_the_machine(mapped().map, {"laid", laid}), 1e-6);
 }
 
 TEST(MapCheck, RemovesEffectsOfPaperAndVisit) {

@@ -57,8 +57,9 @@ TEST(ReadingCovariance, IsFactoredAsTheWholeMatrixIs) {
     // Rounding of matrices of condition 1e4 at most.
     constexpr double kRounding = 1e-10;
     EXPECT_LT((k.diagonal() - dense.diagonal()).cwiseAbs().maxCoeff(), kRounding);
-    EXPECT_LT((conditioned.transpose() * conditioned - y.transpose() * inverse * y).cwiseAbs().maxCoeff(),
-              kRounding * static_cast<double>(k.rows()) * 10.0);
+    EXPECT_LT(
+        (conditioned.transpose() * conditioned - y.transpose() * inverse * y).cwiseAbs().maxCoeff(),
+        kRounding * static_cast<double>(k.rows()) * 10.0);
     EXPECT_LT((factored.pulled(conditioned.col(1)) - inverse * y.col(1)).cwiseAbs().maxCoeff(),
               kRounding * 10.0);
     EXPECT_NEAR(factored.log_root_det(), 0.5 * std::log(dense.determinant()), 1e-9) << "rounding";

@@ -13,8 +13,8 @@ namespace chaintrue::grid {
 namespace {
 
 using testing::HasSubstr;
-using testing_support::nine_holes;
 using testing_support::cut_holes;
+using testing_support::nine_holes;
 using testing_support::usual_holes;
 
 TEST(UnknownTapeZero, EachFileHasItsOffset) {
@@ -69,7 +69,8 @@ TEST(SessionZeros, AnOffsetBelongsToItsSession) {
   const auto before = joint_fit({{"first", first}, {"second", second}});
   ASSERT_TRUE(before) << before.error().sentence();
   for (const double shift_mm : {5.0, -40.0}) {
-    const auto after = joint_fit({{"first", first}, {"second", with_zeros_more(second, shift_mm, 0.0)}});
+    const auto after =
+        joint_fit({{"first", first}, {"second", with_zeros_more(second, shift_mm, 0.0)}});
     ASSERT_TRUE(after) << after.error().sentence();
     EXPECT_FALSE(after->estimate.observations[0].zeros);
     ASSERT_TRUE(after->estimate.observations[1].zeros);
@@ -126,9 +127,11 @@ TEST(UnknownTapeZero, AbsorbsAConstantAddedToEveryReading) {
   ASSERT_TRUE(before && after);
   ASSERT_TRUE(before->distances.front().tape_zero);
   // An offset known to a metre is practically unknown: a millionth of the shift remains.
-  EXPECT_NEAR(after->distances.front().tape_zero->mm - before->distances.front().tape_zero->mm, 3.0, 1e-3);
+  EXPECT_NEAR(after->distances.front().tape_zero->mm - before->distances.front().tape_zero->mm, 3.0,
+              1e-3);
   for (std::size_t k = 0; k < before->distances.front().distances.size(); ++k) {
-    EXPECT_NEAR(after->distances.front().distances[k].left_out_mm, before->distances.front().distances[k].left_out_mm, 1e-3)
+    EXPECT_NEAR(after->distances.front().distances[k].left_out_mm,
+                before->distances.front().distances[k].left_out_mm, 1e-3)
         << "the passes settle to 1e-3 sigmas";
   }
 }
@@ -157,7 +160,8 @@ TEST(TapeZero, UnstatedIsRemovedAndReported) {
     // What the prior of 3 mm leaves to the machine: the share of its variance that is not learnt.
     const double left = std::pow(found.sigma_mm / 3.0, 2);
     EXPECT_LT(left, 0.1) << "twenty distances tell it";
-    EXPECT_NEAR(found.mm - sound->distances.front().tape_zero->mm, (1.0 - left) * zero_mm, 0.02 * std::abs(zero_mm));
+    EXPECT_NEAR(found.mm - sound->distances.front().tape_zero->mm, (1.0 - left) * zero_mm,
+                0.02 * std::abs(zero_mm));
     EXPECT_THAT(fit->map.contents().notes,
                 testing::Contains(testing::AllOf(
                     HasSubstr("Every tape distance reads"),

@@ -39,8 +39,8 @@ std::map<std::string, std::vector<double>> sorted_values(const Document& list) {
 }
 
 void expect_same(const Document& one, const Document& other, const std::string& where) {
-  static const std::set<std::string> by_reading = {
-      "points", "removals", "residuals", "holes", "distances", "places", "measures"};
+  static const std::set<std::string> by_reading = {"points",    "removals", "residuals", "holes",
+                                                   "distances", "places",   "measures"};
   static const std::set<std::string> by_number = {"made_by", "content_hash", "point"};
   if (one.is_number() && other.is_number()) {
     expect_near(one, other, where);

@@ -22,8 +22,7 @@ struct Invocation {
 const std::vector<Invocation>& invocations();
 
 /// The first rule of the command that refuses the option there; null where it acts.
-inline const cli::OptionRule* refusal_of(std::string_view verb,
-                                         std::string_view option,
+inline const cli::OptionRule* refusal_of(std::string_view verb, std::string_view option,
                                          cli::Facts facts) {
   static const std::vector<cli::OptionRule> rules = cli::option_rules();
   for (const cli::OptionRule& rule : rules) {

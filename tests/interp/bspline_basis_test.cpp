@@ -44,8 +44,8 @@ TEST(BsplineBasis, PenaltyIsTheIntegralOfTheSquaredSecondDerivatives) {
   }
   integral *= 5.0 / (4 * kCells) * 1.0 / kCells;
   const double ours = c.dot(basis.bending_penalty(2) * c);
-  EXPECT_NEAR(
-      ours / integral, 1.0, 1e-4);  // the mid-point rule with 80 points or more a knot interval
+  EXPECT_NEAR(ours / integral, 1.0,
+              1e-4);  // the mid-point rule with 80 points or more a knot interval
 }
 
 TEST(BsplineBasis, PenaltyVanishesForPlanesOnly) {

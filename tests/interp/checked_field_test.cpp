@@ -48,10 +48,13 @@ TEST_P(FieldOfWaves, KeepsToItsBound) {
 INSTANTIATE_TEST_SUITE_P(Lengths, FieldOfWaves, testing::Values(3.0, 40.0, 150.0, 600.0));
 
 TEST(CheckedField, IsExactForBicubicsAndKnowsTheirCurvature) {
-  CheckedField field([](double x, double y) { return Value{0.01 * x * x, x * y * y * y}; },
-                     {2.0, 1e-9});
+  CheckedField field(
+      [](double x, double y) {
+        return Value{0.01 * x * x, x * y * y * y};
+      },
+      {2.0, 1e-9});
   const Value z = field.value(3.3, -1.2).value();
-  EXPECT_NEAR(z[0], 0.01 * 3.3 * 3.3, 1e-12);         // rounding
+  EXPECT_NEAR(z[0], 0.01 * 3.3 * 3.3, 1e-12);  // rounding
   EXPECT_NEAR(z[1], 3.3 * -1.2 * 1.2 * 1.2, 1e-12);
   CheckedField parabola([](double x, double) { return Value{0.01 * x * x, 0.0}; }, {2.0, 1e-9});
   EXPECT_NEAR(parabola.curvature(0.5, 0.5), 0.02, 1e-12);

@@ -26,8 +26,8 @@ TEST(TensorSpline, OfDegreeFiveBeatsTheBicubicOnSmoothDataAsTheStudyFound) {
   const auto truth = [](double a, double b) { return truths::wrapped_chain(a, b, 1.0); };
   const TensorSpline surface(std::make_shared<TensorAxes>(x, y, TensorEnds{}, 5),
                              sample(x, y, truth));
-  EXPECT_NEAR(
-      truths::largest_error(surface, truth), 0.0558, 0.0005);  // the study's figure, three digits
+  EXPECT_NEAR(truths::largest_error(surface, truth), 0.0558,
+              0.0005);  // the study's figure, three digits
 }
 
 TEST(MissingNodes, FillSumsOverTheAxesAndCubicsExactly) {

@@ -75,9 +75,9 @@ MixedModel mixed_model(const Sample& sample, double lambda, double sigma2) {
   const double information = fixed.dot(lu.solve(fixed));
   const double effect = fixed.dot(lu.solve(y)) / information;
   const Eigen::VectorXd solved = lu.solve(y - effect * fixed);
-  MixedModel model{std::log(lu.determinant()) + std::log(information) +
-                       (y - effect * fixed).dot(solved),
-                   Eigen::VectorXd(kRidge + kShared)};
+  MixedModel model{
+      std::log(lu.determinant()) + std::log(information) + (y - effect * fixed).dot(solved),
+      Eigen::VectorXd(kRidge + kShared)};
   model.coefficients << p.prior_mean.head(2) + variance.asDiagonal() * (z.transpose() * solved),
       f.transpose() * solved / lambda, effect;
   return model;
@@ -161,9 +161,7 @@ TEST_P(RemlForm, HeldOutResidualsAreThoseOfARefit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms,
-                         RemlForm,
-                         testing::Values(40, 20),
+INSTANTIATE_TEST_SUITE_P(Forms, RemlForm, testing::Values(40, 20),
                          [](const testing::TestParamInfo<Eigen::Index>& rows) {
                            return std::to_string(rows.param) + "Rows";
                          });
@@ -246,8 +244,7 @@ TEST(Reml, EqualsLeastSquaresWithAPriorWithoutARidge) {
   problem.ridge = {};
   problem.noise = {NoiseKnowledge::exact, 0.0};
   const auto fit = fit_penalised(problem).value();
-  const Eigen::MatrixXd a =
-      sample.design.transpose() * sample.design + problem.prior_precision;
+  const Eigen::MatrixXd a = sample.design.transpose() * sample.design + problem.prior_precision;
   const Eigen::VectorXd b = a.fullPivLu().solve(sample.design.transpose() * sample.response +
                                                 problem.prior_precision * problem.prior_mean);
   // The condition number of X'X is below 1e8.

@@ -65,7 +65,8 @@ void expect_spline(const Line& f, const std::vector<double>& x, const AxisEnds& 
   };
   for (std::size_t i = 1; i < cells.size(); ++i)
     EXPECT_LT((at_end(i - 1) - cells[i]).head(3).cwiseAbs().maxCoeff(), kTolerance) << i;
-  const auto defect = [](EndCondition condition, const Eigen::Vector4d& cell, const Eigen::Vector4d& inner) {
+  const auto defect = [](EndCondition condition, const Eigen::Vector4d& cell,
+                         const Eigen::Vector4d& inner) {
     switch (condition) {
       case EndCondition::not_a_knot:
         return cell(3) - inner(3);
@@ -79,17 +80,15 @@ void expect_spline(const Line& f, const std::vector<double>& x, const AxisEnds& 
     return cell(1);
   };
   EXPECT_NEAR(defect(ends.low, cells.front(), cells[1]), 0.0, kTolerance);
-  EXPECT_NEAR(
-      defect(ends.high, at_end(cells.size() - 1), cells[cells.size() - 2]), 0.0, kTolerance);
+  EXPECT_NEAR(defect(ends.high, at_end(cells.size() - 1), cells[cells.size() - 2]), 0.0,
+              kTolerance);
 }
 
 TEST(TensorSpline, IsTheSplineOfEveryPairOfEnds) {
   SCOPED_TRACE(kTensorSeed);
   truths::Random random(kTensorSeed);
-  const EndCondition all[] = {EndCondition::not_a_knot,
-                              EndCondition::natural,
-                              EndCondition::parabolic,
-                              EndCondition::clamped};
+  const EndCondition all[] = {EndCondition::not_a_knot, EndCondition::natural,
+                              EndCondition::parabolic, EndCondition::clamped};
   for (const EndCondition low : all) {
     for (const EndCondition high : all) {
       const auto x = random.nodes(7, -1.2, 1.2);
@@ -102,8 +101,7 @@ TEST(TensorSpline, IsTheSplineOfEveryPairOfEnds) {
         const double py = random.uniform(-0.6, 0.6);
         expect_spline([&](double at) { return surface.value(at, py); }, x, ends.x);
         expect_spline([&](double at) { return surface.value(px, at); }, y, ends.y);
-        EXPECT_NEAR(surface.value(px, py),
-                    surface.cardinal_weights(px, py).cwiseProduct(z).sum(),
+        EXPECT_NEAR(surface.value(px, py), surface.cardinal_weights(px, py).cwiseProduct(z).sum(),
                     1e-11);  // rounding of sums of 28 terms
       }
     }
@@ -203,10 +201,8 @@ TEST_P(DirectInterpolation, ErrsAsMuchAsTheOutsideStudyFound) {
   RecordProperty("chebyshev_um", static_cast<int>(1000 * chebyshev));
 }
 
-INSTANTIATE_TEST_SUITE_P(Grids,
-                         DirectInterpolation,
-                         testing::Values(Sampling{4, 7, 4.21, 1.85},
-                                         Sampling{5, 9, 1.78, 0.62},
+INSTANTIATE_TEST_SUITE_P(Grids, DirectInterpolation,
+                         testing::Values(Sampling{4, 7, 4.21, 1.85}, Sampling{5, 9, 1.78, 0.62},
                                          Sampling{7, 13, 0.50, 0.08}),
                          [](const testing::TestParamInfo<Sampling>& grid) {
                            return std::to_string(grid.param.rows) + "x" +

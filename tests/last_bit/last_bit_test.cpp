@@ -95,8 +95,7 @@ TEST_P(LastBit, DoesNotChangeTheVerdict) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Commands,
-    LastBit,
+    Commands, LastBit,
     testing::Values(Task{"Map", "fit grids/seven_by_four.json"},
                     Task{"MapAndHoles",
                          "fit grids/seven_by_four.json --with holes/nine_holes.json"},

@@ -58,13 +58,9 @@ class Module {
   int start() const { return function<int (*)()>("rtapi_app_main")(); }
 
  private:
-  static int call_inverse(const EmcPose*,
-                          double*,
-                          const KINEMATICS_INVERSE_FLAGS*,
+  static int call_inverse(const EmcPose*, double*, const KINEMATICS_INVERSE_FLAGS*,
                           KINEMATICS_FORWARD_FLAGS*);
-  static int call_forward(const double*,
-                          EmcPose*,
-                          const KINEMATICS_FORWARD_FLAGS*,
+  static int call_forward(const double*, EmcPose*, const KINEMATICS_FORWARD_FLAGS*,
                           KINEMATICS_INVERSE_FLAGS*);
   template <class Function>
   Function function(const char* name) const {

@@ -67,17 +67,13 @@ TEST_P(ErrorInUse, EqualsTheMachinesError) {
   }
   const double true_rms_mm = std::sqrt(squares_mm2 / within);
   // Three sigmas of the map's own error, and its first order: a thousandth of the error.
-  EXPECT_NEAR(found->rms_mm,
-              true_rms_mm,
+  EXPECT_NEAR(found->rms_mm, true_rms_mm,
               3.0 * map->contents().accuracy.expected_tool.rms_mm + 1e-3 * true_rms_mm);
 }
 
-INSTANTIATE_TEST_SUITE_P(Machines,
-                         ErrorInUse,
-                         testing::Values(Session(0.0, 0.0, 0.0),
-                                         Session(5.0, 0.0, 0.0),
-                                         Session(3.0, -4.0, 0.0),
-                                         Session(0.0, 0.0, 6.0),
+INSTANTIATE_TEST_SUITE_P(Machines, ErrorInUse,
+                         testing::Values(Session(0.0, 0.0, 0.0), Session(5.0, 0.0, 0.0),
+                                         Session(3.0, -4.0, 0.0), Session(0.0, 0.0, 6.0),
                                          Session(-2.0, 3.0, 4.0)));
 
 // Splines through lengths have no machine, so no error in use.

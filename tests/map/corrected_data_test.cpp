@@ -99,7 +99,8 @@ TEST(CorrectedData, ReportEffectsThatNeedTheOrder) {
   for (MeasuredPoint& point : measured.grid.points) point.order.reset();
   const auto corrected = corrected_data(measured.grid);
   ASSERT_TRUE(corrected);
-  EXPECT_THAT(corrected->notes, Contains(HasSubstr("could not be removed from the readings: the order")));
+  EXPECT_THAT(corrected->notes,
+              Contains(HasSubstr("could not be removed from the readings: the order")));
   EXPECT_EQ(corrected->grid.points[3].lengths->left_mm, measured.grid.points[3].lengths->left_mm);
 }
 
@@ -123,10 +124,9 @@ TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
   const auto clean_map = fit(clean.grid);
   ASSERT_TRUE(map) << map.error().sentence();
   ASSERT_TRUE(clean_map);
-  for (const model::MarkPoint place : {model::MarkPoint{0.0, 0.0},
-                                       model::MarkPoint{-900.0, 400.0},
-                                       model::MarkPoint{730.0, -410.0},
-                                       model::MarkPoint{1100.0, 500.0}}) {
+  for (const model::MarkPoint place :
+       {model::MarkPoint{0.0, 0.0}, model::MarkPoint{-900.0, 400.0},
+        model::MarkPoint{730.0, -410.0}, model::MarkPoint{1100.0, 500.0}}) {
     const auto answer = map->query(place);
     const auto clean_answer = clean_map->query(place);
     ASSERT_TRUE(answer);

@@ -69,10 +69,8 @@ TEST(DirectFit, EstimatesTheErrorBetweenItsLines) {
 }
 
 TEST(DirectFit, AcceptsEveryBoundaryCondition) {
-  for (const auto end : {interp::EndCondition::not_a_knot,
-                         interp::EndCondition::natural,
-                         interp::EndCondition::parabolic,
-                         interp::EndCondition::clamped}) {
+  for (const auto end : {interp::EndCondition::not_a_knot, interp::EndCondition::natural,
+                         interp::EndCondition::parabolic, interp::EndCondition::clamped}) {
     SCOPED_TRACE(static_cast<int>(end));
     grid::FitOptions options = direct();
     options.ends = {{end, end}, {end, end}};

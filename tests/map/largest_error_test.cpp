@@ -16,7 +16,8 @@ double tolerance(double density) { return 4.0 * std::sqrt(0.95 * 0.05 / 400.0) /
 TEST(LargestError, WithoutUncertaintyIsTheMaximum) {
   LargestError largest;
   EXPECT_EQ(largest.bound_mm(), 0.0);
-  for (const double mm : {3.0, 5.0, 4.0}) largest.add({0.6 * mm, -0.8 * mm}, Eigen::Matrix2Xd(2, 0));
+  for (const double mm : {3.0, 5.0, 4.0})
+    largest.add({0.6 * mm, -0.8 * mm}, Eigen::Matrix2Xd(2, 0));
   EXPECT_NEAR(largest.bound_mm(), 5.0, 1e-15);
 }
 

@@ -38,9 +38,7 @@ grid::MeasuredGrid lattice() {
   return grid;
 }
 
-CompensationMap fitted_lattice(const grid::MeasuredGrid& grid) {
-  return grid::fit(grid).value();
-}
+CompensationMap fitted_lattice(const grid::MeasuredGrid& grid) { return grid::fit(grid).value(); }
 
 const grid::ModelSurface& surface_of(const CompensationMap& map) {
   return std::get<grid::ModelSurface>(map.contents().surface);

@@ -58,8 +58,7 @@ TEST_P(Plan, HoldsEveryCrossingOfChebyshevLobattoLines) {
       interp::chebyshev_lobatto(10.0 - 0.5 * bed.height_mm, 0.5 * bed.height_mm - 10.0, plan.rows);
   for (double row : y) {
     for (double column : x) {
-      EXPECT_TRUE(std::any_of(plan.marks.begin(),
-                              plan.marks.end(),
+      EXPECT_TRUE(std::any_of(plan.marks.begin(), plan.marks.end(),
                               [&](const MarkPoint& mark) {
                                 // Marks are in whole mm.
                                 return std::abs(mark.x_mm - column) < 1.0 &&

@@ -40,9 +40,7 @@ TEST_P(ObservedSubspaceOf, HasThePriorAndTheRowsOfTheSplines) {
     const double size = observed.penalised_rows.cwiseAbs().maxCoeff();
     // Rounding of sums of 70 terms.
     EXPECT_LT((phi * b - observed.penalised_rows.row(at)).cwiseAbs().maxCoeff(), 1e-11 * size);
-    EXPECT_LT((phi * observed.polynomials - observed.polynomial_rows.row(at))
-                  .cwiseAbs()
-                  .maxCoeff(),
+    EXPECT_LT((phi * observed.polynomials - observed.polynomial_rows.row(at)).cwiseAbs().maxCoeff(),
               1e-12);
     if (null_space.cols() > 0) {
       EXPECT_LT((phi * null_space).cwiseAbs().maxCoeff(), 1e-11 * size);
@@ -58,8 +56,7 @@ TEST_P(ObservedSubspaceOf, HasThePriorAndTheRowsOfTheSplines) {
             1e-9 * g.cwiseAbs().maxCoeff());
 }
 
-INSTANTIATE_TEST_SUITE_P(FewAndMany,
-                         ObservedSubspaceOf,
+INSTANTIATE_TEST_SUITE_P(FewAndMany, ObservedSubspaceOf,
                          testing::Combine(testing::Values(12, 28, 69, 70, 120),
                                           testing::Values(2, 3)));
 

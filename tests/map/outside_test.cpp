@@ -17,8 +17,8 @@ using grid::MapStatus;
 using grid::Outside;
 using model::MarkPoint;
 
-const std::vector<Outside> kWays = {
-    Outside::continued, Outside::refuse, Outside::fade, Outside::linear, Outside::clamp};
+const std::vector<Outside> kWays = {Outside::continued, Outside::refuse, Outside::fade,
+                                    Outside::linear, Outside::clamp};
 
 /// Points in the middle of the bed only, with margins of 300 mm and more.
 grid::MeasuredGrid middle_grid(bool noisy) {
@@ -83,7 +83,8 @@ TEST_P(OutsideTheMap, AllPoliciesAgreeWithinThePoints) {
 }
 
 TEST_P(OutsideTheMap, DerivativesAreDifferences) {
-  testing_support::expect_derivatives_are_differences(map_of(middle_grid(GetParam()), Outside::continued));
+  testing_support::expect_derivatives_are_differences(
+      map_of(middle_grid(GetParam()), Outside::continued));
 }
 
 INSTANTIATE_TEST_SUITE_P(NoisyAndLattice, OutsideTheMap, testing::Bool());

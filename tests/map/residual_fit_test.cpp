@@ -18,9 +18,7 @@ grid::synthetic::SyntheticSession session(const grid::synthetic::SyntheticSpec& 
   return grid::synthetic::generate(model::Machine{}, spec).value();
 }
 
-CompensationMap fitted(const grid::MeasuredGrid& grid) {
-  return grid::fit(grid).value();
-}
+CompensationMap fitted(const grid::MeasuredGrid& grid) { return grid::fit(grid).value(); }
 
 TEST(ResidualFit, LeavesAFractionOfTheErrorOfTheStatedMachine) {
   const auto made = session(usual_spec(1));
@@ -41,8 +39,7 @@ TEST(ResidualFit, PlacesASheetThatWasLaidByHand) {
   const auto by_mark = map.query(mark);
   const auto by_bed = map.query(map.to_mark(bed));
   ASSERT_TRUE(by_mark && by_bed);
-  EXPECT_NEAR(by_mark->lengths.left_mm,
-              by_bed->lengths.left_mm,
+  EXPECT_NEAR(by_mark->lengths.left_mm, by_bed->lengths.left_mm,
               1e-9);  // rounding of a rotation there and back
 }
 
@@ -79,8 +76,7 @@ TEST(ResidualFit, EstimatesMissingNoiseFromRepeats) {
   made.grid.noise.reset();
   const grid::MapNoise noise = fitted(made.grid).contents().noise;
   EXPECT_EQ(noise.source, grid::NoiseSource::repeats);
-  EXPECT_NEAR(noise.length_mm * noise.factor_found,
-              0.2,
+  EXPECT_NEAR(noise.length_mm * noise.factor_found, 0.2,
               0.08);  // 40 degrees of freedom: 11 % a sigma, three and a half
 }
 
@@ -110,13 +106,13 @@ TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
     return (row.transpose() * surface.covariance_factor).norm();
   };
   const double before = sigma_of_spacing(fitted(made.grid));
-  made.grid.readings = {{grid::ReadingOf::motor_spacing, "", truth.right.x_mm - truth.left.x_mm, 0.1}};
+  made.grid.readings = {
+      {grid::ReadingOf::motor_spacing, "", truth.right.x_mm - truth.left.x_mm, 0.1}};
   const CompensationMap map = fitted(made.grid);
   EXPECT_LT(sigma_of_spacing(map), 0.1);  // the tape alone has that accuracy
   EXPECT_LT(sigma_of_spacing(map), before);
   const auto& motors = map.machine()->motors;
-  EXPECT_NEAR(motors.right.x_mm - motors.left.x_mm,
-              truth.right.x_mm - truth.left.x_mm,
+  EXPECT_NEAR(motors.right.x_mm - motors.left.x_mm, truth.right.x_mm - truth.left.x_mm,
               0.4);  // four of its sigmas
 }
 
@@ -129,7 +125,8 @@ TEST(ResidualFit, ReportsAnAsymmetricMachine) {
   spec.offsets = {{model::Setting::motor_left_y_mm, 8.0}};
   const auto tilted = fitted(session(spec).grid);
   EXPECT_FALSE(tilted.contents().mirror->holds);
-  EXPECT_THAT(tilted.contents().mirror->sentence, testing::HasSubstr("does not mirror the left one"));
+  EXPECT_THAT(tilted.contents().mirror->sentence,
+              testing::HasSubstr("does not mirror the left one"));
 }
 
 TEST(ResidualFit, TakesNumbersWithoutSigmaAsExact) {

@@ -25,10 +25,13 @@ TEST(Rounding, IsFoundFromTheReadingsDigits) {
   constexpr std::uint64_t kSeed = 53;
   SCOPED_TRACE(fmt::format("seed {}", kSeed));
   for (const double step : {1.0, 0.5, 0.2, 0.1, 0.01, 0.001, 25.4 / 16, 25.4 / 32, 25.4 / 64})
-    EXPECT_DOUBLE_EQ(rounding_sigma_mm(rounded_readings(step, kSeed)), step / std::sqrt(12.0)) << step;
-  EXPECT_EQ(rounding_sigma_mm(rounded_readings(1e-9, kSeed)), 0.0) << "readings with all their digits";
+    EXPECT_DOUBLE_EQ(rounding_sigma_mm(rounded_readings(step, kSeed)), step / std::sqrt(12.0))
+        << step;
+  EXPECT_EQ(rounding_sigma_mm(rounded_readings(1e-9, kSeed)), 0.0)
+      << "readings with all their digits";
   EXPECT_EQ(rounding_sigma_mm(rounded_readings(50.0, kSeed)), 0.0) << "places that somebody chose";
-  EXPECT_EQ(rounding_sigma_mm(rounded_readings(76.2, kSeed)), 0.0) << "a banner in steps of three inches";
+  EXPECT_EQ(rounding_sigma_mm(rounded_readings(76.2, kSeed)), 0.0)
+      << "a banner in steps of three inches";
   EXPECT_EQ(rounding_sigma_mm({1.0, 2.0, 3.0}), 0.0) << "too few to tell";
   EXPECT_EQ(rounding_sigma_mm({}), 0.0);
 }
@@ -36,8 +39,10 @@ TEST(Rounding, IsFoundFromTheReadingsDigits) {
 TEST(Rounding, MatchesTheReadings) {
   MeasuredGrid commanded, lengths;
   for (const double reading : rounded_readings(0.5, 1)) {
-    commanded.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});
-    lengths.points.push_back({{100.0, 200.0}, model::ChainLengths{1500.0 + reading, 1501.0}, {}, {}});
+    commanded.points.push_back(
+        {{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});
+    lengths.points.push_back(
+        {{100.0, 200.0}, model::ChainLengths{1500.0 + reading, 1501.0}, {}, {}});
   }
   EXPECT_GT(rounding_noise(commanded).position_mm, 0.1);
   EXPECT_EQ(rounding_noise(commanded).length_mm, 0.0);

@@ -49,13 +49,13 @@ TEST_P(SecondVisits, NoMarkIsVisitedTwiceInARow) {
   EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Lists,
-    SecondVisits,
-    testing::Values(Asked{28, 4}, Asked{12, 4}, Asked{12, 1}, Asked{13, 3}, Asked{200, 8}),
-    [](const auto& asked) {
-      return std::to_string(asked.param.marks) + "_" + std::to_string(asked.param.second);
-    });
+INSTANTIATE_TEST_SUITE_P(Lists, SecondVisits,
+                         testing::Values(Asked{28, 4}, Asked{12, 4}, Asked{12, 1}, Asked{13, 3},
+                                         Asked{200, 8}),
+                         [](const auto& asked) {
+                           return std::to_string(asked.param.marks) + "_" +
+                                  std::to_string(asked.param.second);
+                         });
 
 TEST(SecondVisitsOfNone, VisitEachMarkOnce) {
   EXPECT_EQ(with_second_visits(3, 0), (std::vector<std::size_t>{0, 1, 2}));

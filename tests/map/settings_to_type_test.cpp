@@ -44,9 +44,7 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   grid.noise = StatedNoise{0.1, 0.1, 15.0};
   for (const model::BedPoint& command : testing_support::commands(7, 4)) {
     grid.points.push_back({model::identity_placement(*true_one->command(*answer->lengths(command))),
-                           std::nullopt,
-                           command,
-                           std::nullopt});
+                           std::nullopt, command, std::nullopt});
   }
   return grid;
 }
@@ -87,9 +85,9 @@ void expect_brought_back(const Machine& machine, const ControllerSettings& right
   truth.controller.settings = right;
   const auto answer = model::make_controller_kinematics(mended);
   const auto goes = model::make_controller_kinematics(truth);
-  for (const model::BedPoint command : {model::BedPoint{-900.0, -340.0},
-                                        model::BedPoint{0.0, 170.0},
-                                        model::BedPoint{900.0, 400.0}}) {
+  for (const model::BedPoint command :
+       {model::BedPoint{-900.0, -340.0}, model::BedPoint{0.0, 170.0},
+        model::BedPoint{900.0, 400.0}}) {
     const model::BedPoint went = *goes->command(*answer->lengths(command));
     // Three sigmas of the map's expected error on each axis.
     EXPECT_NEAR(went.x_mm, command.x_mm, 0.3);
@@ -161,9 +159,7 @@ TEST(SettingsToType, EqualTheMachineOfTheMap) {
   const auto chains = model::make_chain_mechanism(machine);
   for (const model::BedPoint& at : testing_support::commands(9, 5)) {
     grid.points.push_back({model::identity_placement(at),
-                           *chains->first_lengths({at.x_mm, at.y_mm}),
-                           std::nullopt,
-                           std::nullopt});
+                           *chains->first_lengths({at.x_mm, at.y_mm}), std::nullopt, std::nullopt});
   }
   const auto map = fit(grid);
   ASSERT_TRUE(map) << map.error().sentence();

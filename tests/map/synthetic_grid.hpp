@@ -93,12 +93,14 @@ void expect_derivatives_are_differences(const Map& map) {
     const auto lengths = map.lengths({x, y})->lengths;
     return Eigen::Vector2d(lengths.left_mm, lengths.right_mm);
   };
-  for (const auto& [x, y] :
-       {std::pair(12.0, 34.0), std::pair(-700.0, -500.0), std::pair(650.0, 550.0), std::pair(333.0, -77.0)}) {
+  for (const auto& [x, y] : {std::pair(12.0, 34.0), std::pair(-700.0, -500.0),
+                             std::pair(650.0, 550.0), std::pair(333.0, -77.0)}) {
     Eigen::Matrix2d difference;
     difference << at(x + kStepMm, y) - at(x - kStepMm, y), at(x, y + kStepMm) - at(x, y - kStepMm);
     // Central differences: step^2 / 6 times a third derivative of 1e-6, and rounding of 1e-12 / step.
-    EXPECT_LT((map.lengths({x, y})->mark_jacobian - difference / (2.0 * kStepMm)).cwiseAbs().maxCoeff(), 1e-8)
+    EXPECT_LT(
+        (map.lengths({x, y})->mark_jacobian - difference / (2.0 * kStepMm)).cwiseAbs().maxCoeff(),
+        1e-8)
         << x << " " << y;
   }
 }

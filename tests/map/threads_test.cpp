@@ -6,8 +6,8 @@
 
 #include "grid/files/map_file.hpp"
 #include "grid/map/fit.hpp"
-#include "tests/support/in_threads.hpp"
 #include "tests/map/synthetic_grid.hpp"
+#include "tests/support/in_threads.hpp"
 
 namespace chaintrue {
 namespace {
@@ -15,7 +15,9 @@ namespace {
 constexpr int kThreads = 4;
 
 grid::MeasuredGrid session(std::uint64_t seed) {
-  return grid::synthetic::generate(model::Machine{}, testing_support::usual_spec(seed)).value().grid;
+  return grid::synthetic::generate(model::Machine{}, testing_support::usual_spec(seed))
+      .value()
+      .grid;
 }
 
 std::vector<double> answers(const grid::CompensationMap& map) {

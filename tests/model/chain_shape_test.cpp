@@ -18,11 +18,8 @@ struct ShapePoint {
 };
 
 /// The catenary of a pose at unstretched length s from the sled's end.
-ShapePoint point_of_chain(const EquilibriumParameters& parameters,
-                          const Pose& pose,
-                          Side side,
-                          Model model,
-                          double s_mm) {
+ShapePoint point_of_chain(const EquilibriumParameters& parameters, const Pose& pose, Side side,
+                          Model model, double s_mm) {
   const EquilibriumConstants m = equilibrium_constants(parameters);
   const ChainState& c = pose.chains[side];
   const double towards = side == Side::left ? -1.0 : 1.0;
@@ -73,8 +70,7 @@ TEST(ChainShape, LeadsFromTheSledToTheSprocketsTangent) {
           // Without a side force the chains carry the sled between them.
           EXPECT_EQ(pose.chains.left.horizontal_n, pose.chains.right.horizontal_n);
           EXPECT_NEAR(pose.chains.left.vertical_at_sled_n + pose.chains.right.vertical_at_sled_n,
-                      m.sled_weight_n,
-                      1e-13 * m.sled_weight_n);
+                      m.sled_weight_n, 1e-13 * m.sled_weight_n);
           for (const Side side : kSides) {
             SCOPED_TRACE(testing::Message() << "model " << static_cast<int>(model) << " at "
                                             << p.x_mm << (side == Side::left ? " left" : " right"));
@@ -88,10 +84,9 @@ TEST(ChainShape, LeadsFromTheSledToTheSprocketsTangent) {
             const ShapePoint top = shape(c.free_length_mm);
             constexpr double kTolerance = 1e-11;  // of the pose
             EXPECT_NEAR(top.place.x_mm,
-                        m.motors[side].x_mm + outward * sg * r * std::sin(c.angle_rad),
+                        m.motors[side].x_mm + outward * sg * r * std::sin(c.angle_rad), kTolerance);
+            EXPECT_NEAR(top.place.y_mm, m.motors[side].y_mm + sg * r * std::cos(c.angle_rad),
                         kTolerance);
-            EXPECT_NEAR(
-                top.place.y_mm, m.motors[side].y_mm + sg * r * std::cos(c.angle_rad), kTolerance);
             EXPECT_NEAR(top.off_sheet_mm, 0.0, kTolerance);
             EXPECT_NEAR(top.tension_n, c.tension_at_sprocket_n, 1e-12 * c.tension_at_sprocket_n);
             const ShapePoint end = shape(0.0);
@@ -100,15 +95,13 @@ TEST(ChainShape, LeadsFromTheSledToTheSprocketsTangent) {
                 std::holds_alternative<Ring>(attachment) ? 139.1 : std::hypot(155.0, 139.0);
             EXPECT_NEAR(
                 std::hypot(end.place.x_mm - p.x_mm, end.place.y_mm - p.y_mm, end.off_sheet_mm),
-                reach,
-                1e-11);
+                reach, 1e-11);
             // Tension changes by the chain's weight times the height climbed, exactly
             // so without stretch.
             if (model == Model::inextensible) {
               const ShapePoint half = shape(0.5 * c.free_length_mm);
               EXPECT_NEAR(top.tension_n - half.tension_n,
-                          m.chain_weight_n_per_mm * (top.place.y_mm - half.place.y_mm),
-                          1e-12);
+                          m.chain_weight_n_per_mm * (top.place.y_mm - half.place.y_mm), 1e-12);
             }
           }
         }

@@ -78,8 +78,7 @@ TEST(Catenary, ArcAndChordOfTheInextensibleChain) {
     const CatenaryExtent e = catenary_extent({h, random.uniform(-10.0, 150.0), s}, {w, 0.0});
     SCOPED_TRACE(testing::Message() << "seed " << kLawSeed + 1 << " draw " << n);
     // Relative rounding of a square root of a difference: s / u of an ulp.
-    EXPECT_NEAR(std::sqrt((s - e.y_mm) * (s + e.y_mm)),
-                2.0 * a * std::sinh(e.u_mm / (2.0 * a)),
+    EXPECT_NEAR(std::sqrt((s - e.y_mm) * (s + e.y_mm)), 2.0 * a * std::sinh(e.u_mm / (2.0 * a)),
                 1e-14 * s * s / e.u_mm);
   }
 }
@@ -158,7 +157,7 @@ TEST(Pose, EnergyIdentity) {
         const double end =
             pose.position.y_mm + rho * chain.vertical_at_sled_n / chain.tension_at_sled_n;
         found.energy += w * chain.free_length_mm * end + catenary_weight_energy(load, {w, c}) +
-                       catenary_strain_energy(load, {w, c});
+                        catenary_strain_energy(load, {w, c});
         found.phi[side] = chain.angle_rad;
         const double tb = chain.tension_at_sprocket_n;
         found.work[side] =
@@ -182,8 +181,7 @@ TEST(Pose, EnergyIdentity) {
             here.work[side] * sg * r * derivative([side](const Seen& s) { return s.phi[side]; });
       }
       // h^4 of the difference; energies of 1e5 N mm rounded to 1e-11 over 4 mm.
-      EXPECT_NEAR(derivative([](const Seen& s) { return s.energy; }),
-                  expected,
+      EXPECT_NEAR(derivative([](const Seen& s) { return s.energy; }), expected,
                   2e-8 * pose.chains.left.tension_at_sprocket_n);
     });
   }
@@ -210,8 +208,7 @@ TEST(Pose, WeightlessLimitIsTheStraightTangent) {
       light.chain_weight_n_per_mm *= share;
       light.chain_compliance_per_n = 0.0;
       // Sag is proportional to the square of the weight, 4.9 mm at most for the whole chain.
-      expect_same_lengths(make_kinematics(light),
-                          make_kinematics(classic(feed), Model::wrap),
+      expect_same_lengths(make_kinematics(light), make_kinematics(classic(feed), Model::wrap),
                           4.9 * share * share * 1.1 + kRoundingMm);
     }
   }
@@ -223,8 +220,8 @@ TEST(Pose, SprocketWithoutRadiusIsThePoint) {
   EquilibriumParameters tiny = point;
   tiny.sprocket_radius_mm = 1e-7;
   // Rounding of one length.
-  expect_same_lengths(
-      make_kinematics(classic(), Model::straight), make_kinematics(point, Model::wrap), 1e-12);
+  expect_same_lengths(make_kinematics(classic(), Model::straight),
+                      make_kinematics(point, Model::wrap), 1e-12);
   // At most pi/2 of wrap and one radius of offset.
   expect_same_lengths(make_kinematics(point), make_kinematics(tiny), 2e-7);
 }
@@ -244,8 +241,7 @@ TEST(Pose, UprightFrameHasNoThirdDimension) {
     machine.attachment = attachment;
     const EquilibriumParameters upright = equilibrium_parameters(machine);
     expect_same_lengths(make_kinematics(upright, Model::elastic),
-                        make_kinematics(upright, Model::elastic_3d),
-                        kRoundingMm);
+                        make_kinematics(upright, Model::elastic_3d), kRoundingMm);
   }
 }
 

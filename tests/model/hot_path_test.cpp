@@ -35,13 +35,8 @@ TEST(HotPath, AllocatesNothing) {
   for (const Attachment& attachment : {Attachment{Ring{}}, Attachment{Brackets{}}}) {
     Machine machine;
     machine.attachment = attachment;
-    for (const Model model : {Model::straight,
-                              Model::wrap,
-                              Model::firmware,
-                              Model::one_shot,
-                              Model::inextensible,
-                              Model::elastic,
-                              Model::elastic_3d}) {
+    for (const Model model : {Model::straight, Model::wrap, Model::firmware, Model::one_shot,
+                              Model::inextensible, Model::elastic, Model::elastic_3d}) {
       if (model == Model::one_shot && std::holds_alternative<Brackets>(attachment)) continue;
       const auto kinematics = make_kinematics(equilibrium_parameters(machine), model);
       double sum = 0.0;

@@ -34,7 +34,8 @@ TEST(Machine, NamesNonFiniteNumbersWithTheirPlace) {
     for (const MachineProblem& problem : problems_of(machine)) all.push_back(problem.parameter);
     return all;
   };
-  EXPECT_THAT(places([](Machine& m) { m.sprocket.radius_mm = kNan; }), Contains("/sprocket/radius_mm"));
+  EXPECT_THAT(places([](Machine& m) { m.sprocket.radius_mm = kNan; }),
+              Contains("/sprocket/radius_mm"));
   EXPECT_THAT(places([](Machine& m) { m.motors.left.x_mm = kNan; }), Contains("/motors/left/x_mm"));
   EXPECT_THAT(places([](Machine& m) { m.bed.height_mm = HUGE_VAL; }), Contains("/bed/height_mm"));
   EXPECT_THAT(places([](Machine& m) { m.controller.settings.chain_sag_correction = kNan; }),
@@ -60,7 +61,10 @@ TEST(Machine, KinematicsRefuseParametersByNameAndValue) {
       {[](auto& m) { m.chain_compliance_per_n = 1.0; }, "chain_compliance_per_n = 1"},
       {[](auto& m) { m.sprocket_radius_mm = -10.0; }, "sprocket_radius_mm = -10"},
       {[](auto& m) { m.attachment = Ring{-1.0}; }, "ring_radius_mm = -1"},
-      {[](auto& m) { m.attachment = Brackets{kNan, 1.0, 1.0}; }, "spacing_mm = nan"},
+      {[](auto& m) {
+         m.attachment = Brackets{kNan, 1.0, 1.0};
+       },
+       "spacing_mm = nan"},
       {[](auto& m) { m.tilt_rad = 1.6; }, "tilt_rad = 1.6"},
       {[](auto& m) { m.beam_flexibility_mm_per_n = -0.1; }, "beam_flexibility"},
       {[](auto& m) { m.side_force_n = kNan; }, "side_force_n"},
@@ -70,12 +74,9 @@ TEST(Machine, KinematicsRefuseParametersByNameAndValue) {
 }
 
 TEST(Machine, FailuresHaveNamesAndSentences) {
-  for (const PoseReason reason : {PoseReason::outside_verticals,
-                                  PoseReason::above_sprockets,
-                                  PoseReason::link_does_not_fit,
-                                  PoseReason::slack,
-                                  PoseReason::too_short,
-                                  PoseReason::not_converged}) {
+  for (const PoseReason reason :
+       {PoseReason::outside_verticals, PoseReason::above_sprockets, PoseReason::link_does_not_fit,
+        PoseReason::slack, PoseReason::too_short, PoseReason::not_converged}) {
     EXPECT_THAT(std::string(name(reason)), testing::MatchesRegex("[a-z_]+"));
     EXPECT_GT(PoseFailure(reason).sentence().size(), 20u);
   }

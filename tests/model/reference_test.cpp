@@ -40,10 +40,8 @@ class ReferenceTable : public testing::TestWithParam<Case> {};
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.table << " " << c.key; }
 
-void expect_round_trip(const Kinematics& kinematics,
-                       const nlohmann::json& record,
-                       ChainLengths expected,
-                       double tolerance) {
+void expect_round_trip(const Kinematics& kinematics, const nlohmann::json& record,
+                       ChainLengths expected, double tolerance) {
   const BedPoint p = point_of(record);
   SCOPED_TRACE(testing::Message() << "at (" << p.x_mm << ", " << p.y_mm << ")");
   const PoseResult pose = kinematics.inverse(p);
@@ -91,8 +89,7 @@ TEST(Reference, JacobianStateAndForces) {
       const auto& state = r["d_state"];
       const double h = number(state["H"]);
       EXPECT_NEAR(pose->chains.left.horizontal_n, h, 1e-12 * h);  // rounding of a few sums
-      EXPECT_NEAR(pose->chains.left.vertical_at_sled_n,
-                  number(state["VL"]),
+      EXPECT_NEAR(pose->chains.left.vertical_at_sled_n, number(state["VL"]),
                   1e-12 * 110);  // of the sled's weight
       EXPECT_NEAR(pose->chains.right.tension_at_sprocket_n, number(state["TbR"]), 1e-12 * 110);
       EXPECT_NEAR(pose->chains.right.angle_rad, number(state["phiR"]), 1e-13);
@@ -115,8 +112,7 @@ TEST(Reference, Brackets) {
       for (const auto& r : table["bed"]) {
         const auto& e = r[key];
         expect_round_trip(*kinematics, r, {number(e["L"]), number(e["R"])}, kBedTolerance);
-        EXPECT_NEAR(kinematics->inverse(point_of(r))->sled_rotation_rad,
-                    number(e["psi"]),
+        EXPECT_NEAR(kinematics->inverse(point_of(r))->sled_rotation_rad, number(e["psi"]),
                     1e-12);  // 1e-10 mm at 100 mm
         ++compared;
       }
@@ -133,8 +129,8 @@ TEST(Reference, ThreeDimensionalSag) {
     double most = 0.0;
     ASSERT_EQ(table["bed"].size(), 117u);
     for (const auto& r : table["bed"]) {
-      expect_round_trip(
-          *kinematics, r, {number(r["h_3d"][0]), number(r["h_3d"][1])}, kBedTolerance);
+      expect_round_trip(*kinematics, r, {number(r["h_3d"][0]), number(r["h_3d"][1])},
+                        kBedTolerance);
       const PoseResult pose = kinematics->inverse(point_of(r));
       most = std::max(most, pose->lengths.right_mm - plane->inverse(point_of(r))->lengths.right_mm);
       EXPECT_NEAR(pose->chains.left.out_of_sheet_n, number(r["NL"]), 1e-12);

@@ -207,8 +207,7 @@ TEST(Controllers, HoleyStepByStep) {
     return r * a + length / (1 + tolerance / 100) / (1 + tension * 8.1e-6) - *s.rotation_radius_mm;
   };
   const ChainLengths lengths = make_controller_kinematics(machine)->lengths(p).value();
-  EXPECT_NEAR(lengths.left_mm,
-              chain(s1, a1, t1, 0.06165),
+  EXPECT_NEAR(lengths.left_mm, chain(s1, a1, t1, 0.06165),
               5e-12);  // rounding of sinh at a tenth of a radian
   EXPECT_NEAR(lengths.right_mm, chain(s2, a2, t2, 0.22163), 5e-12);
 }

@@ -18,7 +18,8 @@ using model::PlotterFirmware;
 using model::PlotterMachine;
 
 PlotterMachine machine_of(PlotterFirmware firmware) {
-  PlotterMachine machine = firmware == PlotterFirmware::mural ? model::mural(1400.0) : PlotterMachine{};
+  PlotterMachine machine =
+      firmware == PlotterFirmware::mural ? model::mural(1400.0) : PlotterMachine{};
   if (firmware == PlotterFirmware::fluidnc) machine.pin_rise_mm = 9.0;
   machine.zero_mm = {12.0, -7.0};
   machine.scale_mm_per_m = {2.0, -3.0};
@@ -45,7 +46,7 @@ TEST(PlotterController, CommandsRoundTrip) {
       EXPECT_NEAR(back->x_mm, command.x_mm, 1e-7);
       EXPECT_NEAR(back->y_mm, command.y_mm, 1e-7);
     }
-    EXPECT_FALSE(controller.command({100.0, 100.0}));  // cords that do not meet
+    EXPECT_FALSE(controller.command({100.0, 100.0}));                     // cords that do not meet
     EXPECT_FALSE(controller.lengths({middle.x_mm, middle.y_mm + 10.0}));  // above the pins
   }
 }
@@ -55,8 +56,13 @@ KnownPlotter known_plotter() {
   plotter.set.firmware = PlotterFirmware::marlin;
   plotter.set.home = BedPoint{0.0, -700.0};
   plotter.set.pins_middle = {600.0, 800.0};
-  plotter.found = FoundPlotter{
-      {1204.0, 0.6}, {5.0, 2.0}, {8.0, 0.7}, {-3.0, 0.7}, {1.0, 0.3}, {0.5, 0.3}, std::vector<double>(15, 0.0)};
+  plotter.found = FoundPlotter{{1204.0, 0.6},
+                               {5.0, 2.0},
+                               {8.0, 0.7},
+                               {-3.0, 0.7},
+                               {1.0, 0.3},
+                               {0.5, 0.3},
+                               std::vector<double>(15, 0.0)};
   return plotter;
 }
 
@@ -64,8 +70,8 @@ TEST(PlotterMap, EqualsTheFittedPlotterOnItsPage) {
   const KnownPlotter plotter = known_plotter();
   const MechanismMap map = plotter_map(plotter);
   const auto mechanism = model::make_plotter_mechanism(machine_found(plotter.set, *plotter.found));
-  const PlotterController controller(
-      plotter.set.firmware, plotter.set.machine, plotter.set.pins_middle);
+  const PlotterController controller(plotter.set.firmware, plotter.set.machine,
+                                     plotter.set.pins_middle);
   // On average the crosses are drawn where they were commanded.
   double x = 0.0, y = 0.0, worst = 0.0;
   const TestDrawing drawing = planned_drawing(plotter.set);

@@ -20,11 +20,8 @@ using observation::DrawnMeasure;
 using Reason = DrawingFailure::Reason;
 
 /// Measures of the page that `truth` draws with a controller set to `stated`.
-TestDrawing measured(const PlotterMachine& stated,
-                     PlotterFirmware firmware,
-                     const PlotterMachine& truth,
-                     double noise_mm,
-                     std::uint64_t seed) {
+TestDrawing measured(const PlotterMachine& stated, PlotterFirmware firmware,
+                     const PlotterMachine& truth, double noise_mm, std::uint64_t seed) {
   TestDrawing drawing = planned_drawing(stated, firmware);
   const auto machine = model::make_plotter_mechanism(truth);
   std::vector<Eigen::Vector2d> pens;
@@ -35,14 +32,14 @@ TestDrawing measured(const PlotterMachine& stated,
   }
   Random random(seed, 41);
   for (DrawnMeasure& m : drawing.measures) {
-    m.value_mm = observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
-                 noise_mm * random.normal();
+    m.value_mm =
+        observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
+        noise_mm * random.normal();
   }
   return drawing;
 }
 
-double largest_bow(const TestDrawing& drawing,
-                   const std::vector<FittedMeasure>& measures,
+double largest_bow(const TestDrawing& drawing, const std::vector<FittedMeasure>& measures,
                    double FittedMeasure::*value) {
   double most = 0.0;
   for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -53,8 +50,7 @@ double largest_bow(const TestDrawing& drawing,
 }
 
 /// The bows of the page that `truth` draws with the settings of `fit`.
-double bow_of_next_page(const TestDrawing& drawing,
-                        const DrawingFit& fit,
+double bow_of_next_page(const TestDrawing& drawing, const DrawingFit& fit,
                         const PlotterMachine& truth) {
   const auto machine = model::make_plotter_mechanism(truth);
   double most = 0.0;
@@ -67,8 +63,8 @@ double bow_of_next_page(const TestDrawing& drawing,
       EXPECT_TRUE(pen);
       pens.emplace_back(pen->x_mm, pen->y_mm);
     }
-    most =
-        std::max(most, std::abs(observation::measure_row(m.kind, pens[0], pens[1], pens[2]).value_mm));
+    most = std::max(most,
+                    std::abs(observation::measure_row(m.kind, pens[0], pens[1], pens[2]).value_mm));
   }
   return most;
 }
@@ -98,7 +94,8 @@ TEST(DrawingFit, ReportsNothingOnASoundMachine) {
   const PlotterMachine stated = model::mural(1400.0);
   const auto fit = fit_drawing(measured(stated, PlotterFirmware::mural, stated, 0.5, 1));
   ASSERT_TRUE(fit) << fit.error().sentence();
-  for (const PlotterSetting& one : fit->settings) EXPECT_FALSE(one.is_off) << one.name << ", seed 1";
+  for (const PlotterSetting& one : fit->settings)
+    EXPECT_FALSE(one.is_off) << one.name << ", seed 1";
 }
 
 TestDrawing slipped(const std::function<void(TestDrawing&)>& slip) {
@@ -155,7 +152,8 @@ TEST(DrawingFit, SlipsOfAPartAndOfAFewPercentAreNamedOnEveryPlotter) {
        Reason::inches},
       {[&](DrawnMeasure& m, std::size_t i) { m.value_mm /= !is_bow(m) && i >= 7 ? 25.4 : 1.0; },
        Reason::inches},
-      {[&](DrawnMeasure& m, std::size_t) { m.value_mm *= is_bow(m) ? -1.0 : 1.0; }, Reason::bows_turned}};
+      {[&](DrawnMeasure& m, std::size_t) { m.value_mm *= is_bow(m) ? -1.0 : 1.0; },
+       Reason::bows_turned}};
   for (const PlotterFirmware firmware : model::kPlotterFirmwares) {
     const PlotterMachine stated = usual_machine(firmware);
     PlotterMachine truth = stated;
@@ -169,7 +167,8 @@ TEST(DrawingFit, SlipsOfAPartAndOfAFewPercentAreNamedOnEveryPlotter) {
         TestDrawing spoilt = drawing;
         for (std::size_t i = 0; i < spoilt.measures.size(); ++i) slip(spoilt.measures[i], i);
         const auto fit = fit_drawing(spoilt);
-        ASSERT_FALSE(fit) << name(firmware) << ", seed " << seed << ", slip " << static_cast<int>(reason);
+        ASSERT_FALSE(fit) << name(firmware) << ", seed " << seed << ", slip "
+                          << static_cast<int>(reason);
         EXPECT_EQ(fit.error().reason, reason)
             << name(firmware) << ", seed " << seed << ": " << fit.error().sentence();
       }

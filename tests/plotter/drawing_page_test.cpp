@@ -24,8 +24,7 @@ TEST(DrawingPage, ThePlanHasACrossAtEveryEndOfEveryMeasure) {
   const TestDrawing drawing = planned();
   EXPECT_EQ(drawing.crosses.size(), 9u);
   EXPECT_EQ(drawing.measures.size(), 24u);
-  EXPECT_EQ(std::count_if(drawing.measures.begin(),
-                          drawing.measures.end(),
+  EXPECT_EQ(std::count_if(drawing.measures.begin(), drawing.measures.end(),
                           [](const auto& m) { return m.kind == DrawnMeasure::Kind::bow; }),
             8);
   for (const DrawnMeasure& m : drawing.measures) {

@@ -18,8 +18,7 @@ constexpr ToolPosition kPlace{200.0, -700.0};
 std::shared_ptr<const PlotterMechanism> bot() { return make_plotter_mechanism(mural(1500.0)); }
 
 /// What effects add to both lengths of `machine`.
-Eigen::Vector2d added(const PlotterMachine& machine,
-                      const AppliedEffect& effect,
+Eigen::Vector2d added(const PlotterMachine& machine, const AppliedEffect& effect,
                       const MechanismVisit& visit = {}) {
   return *added_by(*make_plotter_mechanism(machine), effect, kPlace, visit);
 }
@@ -39,8 +38,8 @@ TEST(PlotterEffects, CordEffectsAgreeWithHandCalculation) {
   constexpr double kRounding = 1e-11;
   const Eigen::Vector2d waves =
       added(machine, {"spool_eccentricity", "left", {{"amplitude_mm", 0.3}, {"phase_rad", 1.0}}});
-  EXPECT_NEAR(
-      waves[0], 0.3 * std::sin(2.0 * std::numbers::pi * plain[0] / turn_mm + 1.0), kRounding);
+  EXPECT_NEAR(waves[0], 0.3 * std::sin(2.0 * std::numbers::pi * plain[0] / turn_mm + 1.0),
+              kRounding);
   EXPECT_EQ(waves[1], 0.0);
   const Eigen::Vector2d layers =
       added(machine, {"spool_layers", "both", {{"growth_mm_per_m2", 6.0}}});
@@ -53,8 +52,8 @@ TEST(PlotterEffects, CordEffectsAgreeWithHandCalculation) {
   const AppliedEffect shift{"zero_shift", "left", {{"shift_mm", 1.5}, {"first_visit", 10.0}}};
   EXPECT_EQ(added(machine, shift, before).norm(), 0.0);
   EXPECT_NEAR(added(machine, shift, after)[0], 1.5, kRounding);
-  EXPECT_NEAR(
-      added(machine, {"drift", "both", {{"rate_mm_per_visit", 0.05}}}, after)[1], 0.5, kRounding);
+  EXPECT_NEAR(added(machine, {"drift", "both", {{"rate_mm_per_visit", 0.05}}}, after)[1], 0.5,
+              kRounding);
   // A scale counts what effects add as well.
   machine.scale_mm_per_m.left_mm = 10.0;
   EXPECT_NEAR(added(machine, shift, after)[0], 1.515, kRounding);

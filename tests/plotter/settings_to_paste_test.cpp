@@ -25,11 +25,9 @@ TEST(SettingsToPaste, HomedOffsetIsAMuralsZero) {
   truth.pin_spacing_mm = 1503.2;
   truth.zero_mm = {23.0, 23.0};
   truth.scale_mm_per_m = {2.0, 2.0};
-  EXPECT_THAT(settings_to_paste(drawing_of(PlotterFirmware::mural, stated),
-                                truth),
+  EXPECT_THAT(settings_to_paste(drawing_of(PlotterFirmware::mural, stated), truth),
               // (40 - 23) / 1.002 and 12.69 / 1.002.
-              ElementsAre("top distance: 1503 mm",
-                          "effective pulley diameter: 12.6647 mm",
+              ElementsAre("top distance: 1503 mm", "effective pulley diameter: 12.6647 mm",
                           "homed step offset: 16.97 mm"));
 }
 
@@ -41,17 +39,10 @@ TEST(SettingsToPaste, FluidncHasBothPinsAndBothScales) {
   TestDrawing drawing = drawing_of(PlotterFirmware::fluidnc);
   drawing.steps_per_mm = {80.0, 80.0};
   EXPECT_THAT(settings_to_paste(drawing, truth),
-              ElementsAre("kinematics:",
-                          "  WallPlotter:",
-                          "    left_anchor_x: -602.00",
-                          "    left_anchor_y: 497.00",
-                          "    right_anchor_x: 602.00",
-                          "    right_anchor_y: 503.00",
-                          "axes:",
-                          "  x:",
-                          "    steps_per_mm: 80.0800",
-                          "  y:",
-                          "    steps_per_mm: 79.8400"));
+              ElementsAre("kinematics:", "  WallPlotter:", "    left_anchor_x: -602.00",
+                          "    left_anchor_y: 497.00", "    right_anchor_x: 602.00",
+                          "    right_anchor_y: 503.00", "axes:", "  x:",
+                          "    steps_per_mm: 80.0800", "  y:", "    steps_per_mm: 79.8400"));
 }
 
 TEST(SettingsToPaste, SetThePenPositionInMarlin) {
@@ -64,16 +55,13 @@ TEST(SettingsToPaste, SetThePenPositionInMarlin) {
   EXPECT_THAT(lines,
               ElementsAre("M92 X<the present value times 1.000000> Y<the present value times "
                           "1.000000>",
-                          "M665 L-600.00 R600.00 T500.00",
-                          "M500",
-                          "G92 X0.00 Y-293.74"));
+                          "M665 L-600.00 R600.00 T500.00", "M500", "G92 X0.00 Y-293.74"));
 }
 
 TEST(SettingsToPaste, PolargraphHasOneScale) {
   model::PlotterMachine truth;
   truth.scale_mm_per_m = {3.0, 1.0};
-  EXPECT_THAT(settings_to_paste(drawing_of(PlotterFirmware::polargraph),
-                                truth),
+  EXPECT_THAT(settings_to_paste(drawing_of(PlotterFirmware::polargraph), truth),
               ElementsAre("machine.width=1200.0",
                           "machine.motors.mmPerRev=<the present value times 0.998004>"));
 }

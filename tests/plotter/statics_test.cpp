@@ -51,11 +51,11 @@ TEST(PlotterStatics, LengthsMatchTheTables) {
           {pose.at("x_mm"), pose.at("y_mm"), machine.pin_spacing_mm, machine.pin_rise_mm});
       ASSERT_TRUE(cords) << kind.at("name") << pose;
       // As the header states.
-      EXPECT_NEAR(
-          cords->left.length_mm.value, std::stod(pose.at("left_mm").get<std::string>()), 1e-9)
+      EXPECT_NEAR(cords->left.length_mm.value, std::stod(pose.at("left_mm").get<std::string>()),
+                  1e-9)
           << kind.at("name") << pose;
-      EXPECT_NEAR(
-          cords->right.length_mm.value, std::stod(pose.at("right_mm").get<std::string>()), 1e-9)
+      EXPECT_NEAR(cords->right.length_mm.value, std::stod(pose.at("right_mm").get<std::string>()),
+                  1e-9)
           << kind.at("name") << pose;
       EXPECT_NEAR(cords->tilt_rad.value, std::stod(pose.at("tilt_rad").get<std::string>()), 1e-11)
           << kind.at("name") << pose;
@@ -163,8 +163,7 @@ TEST(PlotterController, UsesItsSettings) {
   EXPECT_NEAR(lengths->right_mm, 1000.0 - 3.0, 1e-11);
   set.pin_rise_mm = 40.0;
   EXPECT_NEAR(paid_out(PlotterFirmware::fluidnc, set, {0.0, -800.0})->right_mm + 3.0,
-              std::hypot(600.0, 820.0),
-              1e-11);
+              std::hypot(600.0, 820.0), 1e-11);
   EXPECT_EQ(paid_out(PlotterFirmware::marlin, set, {0.0, -800.0})->right_mm, 997.0);
   EXPECT_EQ(paid_out(PlotterFirmware::marlin, set, {700.0, -800.0}).error(),
             PlotterReason::outside_the_pins);

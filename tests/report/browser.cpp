@@ -29,18 +29,15 @@ int browse(const TemporaryFolder& folder, std::string_view options) {
           "--disable-dev-shm-usage --disable-background-networking --disable-component-update "
           "--disable-sync --disable-default-apps --host-resolver-rules='MAP * ~NOTFOUND' "
           "--user-data-dir='{}' --virtual-time-budget=20000 {} 'file://{}' >'{}' 2>'{}'",
-          CHAINTRUE_BROWSER,
-          folder / "profile",
-          options,
-          folder / "page.html",
-          folder / "dom",
+          CHAINTRUE_BROWSER, folder / "profile", options, folder / "page.html", folder / "dom",
           folder / "log")
           .c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// The pieces of text between begin and end, both left out.
-std::vector<std::string> between(std::string_view text, std::string_view begin, std::string_view end) {
+std::vector<std::string> between(std::string_view text, std::string_view begin,
+                                 std::string_view end) {
   std::vector<std::string> pieces;
   for (std::size_t at = text.find(begin); at != text.npos; at = text.find(begin, at)) {
     at += begin.size();
@@ -55,9 +52,12 @@ std::vector<std::string> between(std::string_view text, std::string_view begin, 
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '"') result += "&quot;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
   }
   return result;
 }
@@ -130,10 +130,9 @@ std::vector<Visit> visit_all(const std::vector<Opened>& pages) {
   const TemporaryFolder folder;
   std::string html = "<!DOCTYPE html>\n<meta charset=\"utf-8\">\n<body>\n";
   for (const Opened& page : pages) {
-    html += fmt::format("<iframe width=\"{}\" height=\"{}\" style=\"border: 0\" srcdoc=\"{}\"></iframe>\n",
-                        page.window.width_px,
-                        page.window.height_px,
-                        escaped(with_probe(page)));
+    html += fmt::format(
+        "<iframe width=\"{}\" height=\"{}\" style=\"border: 0\" srcdoc=\"{}\"></iframe>\n",
+        page.window.width_px, page.window.height_px, escaped(with_probe(page)));
   }
   html += kCollect;
   std::ofstream(folder / "page.html", std::ios::binary) << html;
@@ -158,10 +157,11 @@ std::vector<Visit> visit_all(const std::vector<Opened>& pages) {
 int printed_sheets(const std::string& html) {
   const TemporaryFolder folder;
   std::string page = html;
-  page.insert(page.find("</head>"),
-              fmt::format("<style>@page {{ size: {}mm {}mm; }}</style>\n", kA4WidthMm, kLetterHeightMm));
+  page.insert(page.find("</head>"), fmt::format("<style>@page {{ size: {}mm {}mm; }}</style>\n",
+                                                kA4WidthMm, kLetterHeightMm));
   std::ofstream(folder / "page.html", std::ios::binary) << page;
-  if (browse(folder, fmt::format("--no-pdf-header-footer --print-to-pdf='{}'", folder / "page.pdf")) != 0)
+  if (browse(folder,
+             fmt::format("--no-pdf-header-footer --print-to-pdf='{}'", folder / "page.pdf")) != 0)
     return 0;
   // Skia writes each page as a separate, uncompressed object.
   return static_cast<int>(between(read_text(folder / "page.pdf"), "/Type /Page\n", "\n").size());

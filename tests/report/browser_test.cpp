@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "tests/support/sample_diagnosis.hpp"
 #include "tests/report/made_pages.hpp"
 #include "tests/report/sample_report.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -38,7 +38,8 @@ Window paper() {
 }
 
 std::string diagnosis_of_the_demo() {
-  return made_by("chaintrue diagnose " CHAINTRUE_FIXTURES "/grids/seven_by_four.json --report page.html",
+  return made_by("chaintrue diagnose " CHAINTRUE_FIXTURES
+                 "/grids/seven_by_four.json --report page.html",
                  "page.html");
 }
 
@@ -133,18 +134,22 @@ constexpr const char* kFoldedProbe = R"(
 
 /// Sent to `commands`, the tool lands 10 mm lower.
 std::string map_of_a_tool_that_hangs_low() {
-  return made_by(
-      "chaintrue start " CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini shop && awk 'BEGIN { print "
-      "\"x_mm,y_mm,commanded_x_mm,commanded_y_mm\"; for (y = -510; y <= 510; y += 340) for (x = -1080; x <= "
-      "1080; x += 360) print x \",\" y - 10 \",\" x \",\" y }' > low.csv && chaintrue fit low.csv --machine "
-      "shop/machine.json --noise-length-mm 0.1 --noise-position-mm 0.3 -o map.json && chaintrue report map.json "
-      "-o page.html",
-      "page.html");
+  return made_by("chaintrue start " CHAINTRUE_FIXTURES
+                 "/good/groundcontrol_ring.ini shop && awk 'BEGIN { print "
+                 "\"x_mm,y_mm,commanded_x_mm,commanded_y_mm\"; for (y = -510; y <= 510; y += 340) "
+                 "for (x = -1080; x <= "
+                 "1080; x += 360) print x \",\" y - 10 \",\" x \",\" y }' > low.csv && chaintrue "
+                 "fit low.csv --machine "
+                 "shop/machine.json --noise-length-mm 0.1 --noise-position-mm 0.3 -o map.json && "
+                 "chaintrue report map.json "
+                 "-o page.html",
+                 "page.html");
 }
 
 std::string diagnosis_of_a_worn_chain() {
-  return made_by("chaintrue start " CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini shop && chaintrue diagnose "
-                 CHAINTRUE_FIXTURES "/start/worn_chain.csv --machine shop/machine.json --report page.html",
+  return made_by("chaintrue start " CHAINTRUE_FIXTURES
+                 "/good/groundcontrol_ring.ini shop && chaintrue diagnose " CHAINTRUE_FIXTURES
+                 "/start/worn_chain.csv --machine shop/machine.json --report page.html",
                  "page.html");
 }
 
@@ -169,42 +174,42 @@ void expect_marks(const Visit& visited, const std::map<std::string, int>& marks)
 
 TEST(Browser, PagesAreDrawnWhole) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
-  const std::string grid = "chaintrue fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o map.json && ";
+  const std::string grid =
+      "chaintrue fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o map.json && ";
   const std::string sample = render_html(sample_document());
   const std::string diagnosis = page_of(sample_diagnosis());
   auto stable = sample_diagnosis();
   for (auto& removal : stable.stability->removals) removal.stands = true;
   const std::string map = made_by(grid + "chaintrue report map.json -o page.html", "page.html");
-  const auto visits = visit_all(
-      {{sample, {}, kHoverAndOverlaps},
-       {sample, kPhone, phone_probe()},
-       {diagnosis},
-       {diagnosis, kLargePhone, phone_probe()},
-       {page_of(stable), {1200, 800}, kFoldedProbe},
-       {page_of(diagnosis_with_laws())},
-       {page_of(quiet_diagnosis())},
-       {page_of(diagnosis_of_holes())},
-       {map},
-       {as_printed(map), paper(), paper_probe()},
-       {as_printed(made_by(grid + "chaintrue report map.json --certificate -o page.html", "page.html")),
-        paper(),
-        paper_probe()},
-       {as_printed(diagnosis_of_the_demo()), paper(), paper_probe()},
-       {map_of_a_tool_that_hangs_low(), {}, kShaftsProbe},
-       {diagnosis_of_a_worn_chain(), {}, kShaftsProbe}});
+  const auto visits =
+      visit_all({{sample, {}, kHoverAndOverlaps},
+                 {sample, kPhone, phone_probe()},
+                 {diagnosis},
+                 {diagnosis, kLargePhone, phone_probe()},
+                 {page_of(stable), {1200, 800}, kFoldedProbe},
+                 {page_of(diagnosis_with_laws())},
+                 {page_of(quiet_diagnosis())},
+                 {page_of(diagnosis_of_holes())},
+                 {map},
+                 {as_printed(map), paper(), paper_probe()},
+                 {as_printed(made_by(grid + "chaintrue report map.json --certificate -o page.html",
+                                     "page.html")),
+                  paper(), paper_probe()},
+                 {as_printed(diagnosis_of_the_demo()), paper(), paper_probe()},
+                 {map_of_a_tool_that_hangs_low(), {}, kShaftsProbe},
+                 {diagnosis_of_a_worn_chain(), {}, kShaftsProbe}});
   for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_THAT(visits[i].problems, IsEmpty()) << i;
 
   {
     SCOPED_TRACE("sample");
     // Before, after, and after at a larger magnification.
-    expect_marks(visits[0],
-                 {{"bed_arrows point_marks", 3 * kSamplePoints},
-                  {"bed_arrows shafts", 3 * kSamplePoints},
-                  {"error_map cell_marks", kSampleCells},
-                  {"error_map point_marks", kSamplePoints},
-                  {"held_out_target hit_marks", kSamplePoints},
-                  {"held_out_points point_marks", kSamplePoints},
-                  {"error_steps bars", 4}});
+    expect_marks(visits[0], {{"bed_arrows point_marks", 3 * kSamplePoints},
+                             {"bed_arrows shafts", 3 * kSamplePoints},
+                             {"error_map cell_marks", kSampleCells},
+                             {"error_map point_marks", kSamplePoints},
+                             {"held_out_target hit_marks", kSamplePoints},
+                             {"held_out_points point_marks", kSamplePoints},
+                             {"error_steps bars", 4}});
     EXPECT_THAT(visits[0].found.at("tip"), StartsWith("block: point 1 "));
     EXPECT_EQ(visits[0].found.at("hidden"), "0: ");
     expect_fits_a_phone(visits[1]);
@@ -215,15 +220,14 @@ TEST(Browser, PagesAreDrawnWhole) {
     constexpr int kPoints = grid::testing::kSamplePoints;
     // The cause; before, after, and after at a larger magnification. Two chains, four panels each. Length,
     // folded and angle before and after for two chains; the visits once for each.
-    expect_marks(visits[2],
-                 {{"bed_arrows point_marks", 4 * kPoints},
-                  {"bed_arrows noise_ellipses", 4 * kPoints},
-                  {"residual_strip point_marks", 8 * kPoints},
-                  {"residual_scatter point_marks", 14 * kPoints},
-                  {"probability_bars bars", 4},
-                  {"gain_bars bars", 6},
-                  {"next_points next_marks", 2},
-                  {"next_points measured_marks", kPoints}});
+    expect_marks(visits[2], {{"bed_arrows point_marks", 4 * kPoints},
+                             {"bed_arrows noise_ellipses", 4 * kPoints},
+                             {"residual_strip point_marks", 8 * kPoints},
+                             {"residual_scatter point_marks", 14 * kPoints},
+                             {"probability_bars bars", 4},
+                             {"gain_bars bars", 6},
+                             {"next_points next_marks", 2},
+                             {"next_points measured_marks", kPoints}});
     expect_fits_a_phone(visits[3]);
     // About three screens of 800; nothing folded, it was 11,700.
     EXPECT_LT(number(visits[4], "high"), 2500);
@@ -231,13 +235,12 @@ TEST(Browser, PagesAreDrawnWhole) {
     EXPECT_LT(number(visits[4], "highest"), 60);
     EXPECT_EQ(visits[4].found.at("fits"), "true");
     // Without the law, with it, and with it once more at a larger magnification.
-    expect_marks(visits[5],
-                 {{"residual_scatter point_marks", 16 * kPoints}, {"bed_arrows point_marks", 7 * kPoints}});
+    expect_marks(visits[5], {{"residual_scatter point_marks", 16 * kPoints},
+                             {"bed_arrows point_marks", 7 * kPoints}});
     expect_marks(visits[6], {{"residual_scatter point_marks", 6 * kPoints}});
     // Before and after; measured, cause, rival and remainder; measured and three more.
-    expect_marks(visits[7],
-                 {{"hole_distances distance_lines", 6 * kSampleDistances + 23},
-                  {"residual_scatter point_marks", 4 * kSampleDistances}});
+    expect_marks(visits[7], {{"hole_distances distance_lines", 6 * kSampleDistances + 23},
+                             {"residual_scatter point_marks", 4 * kSampleDistances}});
   }
   // 28 marks and six repeated visits.
   expect_marks(visits[8], {{"held_out_points point_marks", 34}});
@@ -260,12 +263,12 @@ TEST(Browser, FaultsOfAPageAreFound) {
   MapPictures map = sample_pictures();
   map.error_map->cells.clear();
   map.points.clear();
-  const auto visits = visit_all(
-      {{with(html, "\"type\":\"rule\"", "\"type\":\"ruler\"")},
-       {render_html(sample_document(map))},
-       {with(html, "\"from\":{\"data\":\"cells\"}", "\"from\":{\"data\":\"beyond\"}")},
-       {html, {}, "console.error('the needle');"},
-       {html}});
+  const auto visits =
+      visit_all({{with(html, "\"type\":\"rule\"", "\"type\":\"ruler\"")},
+                 {render_html(sample_document(map))},
+                 {with(html, "\"from\":{\"data\":\"cells\"}", "\"from\":{\"data\":\"beyond\"}")},
+                 {html, {}, "console.error('the needle');"},
+                 {html}});
   EXPECT_THAT(visits[0].problems, Contains(HasSubstr("console: ")));
   EXPECT_THAT(visits[1].problems, Contains(HasSubstr("error_map is empty: ")));
   EXPECT_THAT(visits[2].problems, Contains(HasSubstr("error_map is empty: ")));
@@ -279,7 +282,8 @@ TEST(Browser, PagesAreShortOnPaper) {
   const int sheets = printed_sheets(diagnosis_of_the_demo());
   EXPECT_GE(sheets, 1);
   EXPECT_LE(sheets, 4);
-  const std::string start = "chaintrue start " CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini shop";
+  const std::string start =
+      "chaintrue start " CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini shop";
   for (const char* page : {"shop/marks.html", "shop/holes.html"})
     EXPECT_EQ(printed_sheets(made_by(start, page)), 1) << page;
 }

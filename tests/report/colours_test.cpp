@@ -15,34 +15,24 @@
 namespace chaintrue::report::testing {
 namespace {
 
-const std::set<std::string> kMeanings = {
-    kBeforeColor, kAfterColor, kThirdColor, kFourthColor, kNeutralColor};
+const std::set<std::string> kMeanings = {kBeforeColor, kAfterColor, kThirdColor, kFourthColor,
+                                         kNeutralColor};
 /// Ink, soft ink and the wood of a sheet.
-const std::set<std::string> kGround = {
-    "#1b2330", "#5b6675", "#a98a5b", "#8a6d3f", "#d8b98a", "#ffffff", "#f4f6f8"};
+const std::set<std::string> kGround = {"#1b2330", "#5b6675", "#a98a5b", "#8a6d3f",
+                                       "#d8b98a", "#ffffff", "#f4f6f8"};
 /// Scales of a quantity from little to much, and the lines of a sweep.
-const std::set<std::string> kScales = {"#fdfdf5",
-                                       "#d6e8d0",
-                                       "#8fc6c4",
-                                       "#4a94b8",
-                                       "#2f5d9b",
+const std::set<std::string> kScales = {"#fdfdf5", "#d6e8d0", "#8fc6c4", "#4a94b8", "#2f5d9b",
                                        "#253471",  // expected error
                                        "#9bbdd6",  // the stem of a point
-                                       "#440154",
-                                       "#3b528b",
-                                       "#1f8a86",
-                                       "#c07a00",
-                                       "#c0281c",  // error along a program
-                                       "#56b4e9",
-                                       "#999933",
-                                       "#e69f00"};  // lines of a sweep
+                                       "#440154", "#3b528b", "#1f8a86", "#c07a00",
+                                       "#c0281c",                         // error along a program
+                                       "#56b4e9", "#999933", "#e69f00"};  // lines of a sweep
 
 std::set<std::string> colours_in(const std::string& text) {
   static const std::regex kColour("#[0-9a-fA-F]{6}\\b");
   std::set<std::string> found;
   for (auto at = std::sregex_iterator(text.begin(), text.end(), kColour);
-       at != std::sregex_iterator();
-       ++at)
+       at != std::sregex_iterator(); ++at)
     found.insert(at->str());
   return found;
 }
@@ -70,9 +60,9 @@ TEST(Colours, PythonPlotsMatchTheCharts) {
   const std::string text =
       testing_support::read_text(CHAINTRUE_FIXTURES "/../tools/python/chaintrue/_plots.py");
   ASSERT_FALSE(text.empty());
-  for (const auto& [name, colour] : {std::pair("BEFORE", kBeforeColor),
-                                     std::pair("AFTER", kAfterColor),
-                                     std::pair("NEUTRAL", kNeutralColor)}) {
+  for (const auto& [name, colour] :
+       {std::pair("BEFORE", kBeforeColor), std::pair("AFTER", kAfterColor),
+        std::pair("NEUTRAL", kNeutralColor)}) {
     EXPECT_THAT(text, ::testing::HasSubstr(std::string(name) + " = \"" + colour + "\""));
   }
   // No colour of matplotlib's own cycle.

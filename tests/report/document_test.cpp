@@ -34,22 +34,23 @@ Table numbers() {
 }
 
 Document sample() {
-  Document document{.title = "A title",
-                    .subtitle = "a subtitle",
-                    .verdict = {"The verdict is 1 +- 0.1 mm."},
-                    .advice = {{"Do this."}, {"And that.", Detail::page}},
-                    .not_proved = {"Not that it is perfect."},
-                    .remarks = {"What it rests on", {Paragraph{"an assumption", Detail::always, true}}},
-                    .provenance = "Made by a test."};
+  Document document{
+      .title = "A title",
+      .subtitle = "a subtitle",
+      .verdict = {"The verdict is 1 +- 0.1 mm."},
+      .advice = {{"Do this."}, {"And that.", Detail::page}},
+      .not_proved = {"Not that it is perfect."},
+      .remarks = {"What it rests on", {Paragraph{"an assumption", Detail::always, true}}},
+      .provenance = "Made by a test."};
   Chart chart{.specification = "error_steps", .title = "a chart"};
-  chart.alternative = Table{.columns = {{.width = 8}, {.gap = 2}}, .rows = {{{"in words", "97 %"}}}};
-  document.sections = {
-      {"The anchors, mm", {numbers()}},
-      {"Lines", {List{true, {{"one", {{"below one"}}}, {"two"}}}}},
-      {"Odds", {chart}},
-      {"Text", {Paragraph{"a paragraph"}, Paragraph{"a detail", Detail::verbose}}},
-      {"For those who ask", {Paragraph{"all of it"}}, false, Detail::verbose},
-      {"On the page", {Paragraph{"page paragraph"}}, true, Detail::page}};
+  chart.alternative =
+      Table{.columns = {{.width = 8}, {.gap = 2}}, .rows = {{{"in words", "97 %"}}}};
+  document.sections = {{"The anchors, mm", {numbers()}},
+                       {"Lines", {List{true, {{"one", {{"below one"}}}, {"two"}}}}},
+                       {"Odds", {chart}},
+                       {"Text", {Paragraph{"a paragraph"}, Paragraph{"a detail", Detail::verbose}}},
+                       {"For those who ask", {Paragraph{"all of it"}}, false, Detail::verbose},
+                       {"On the page", {Paragraph{"page paragraph"}}, true, Detail::page}};
   return document;
 }
 
@@ -76,28 +77,17 @@ TEST(Document, RendersForTheTerminal) {
 
 TEST(Document, PageContainsTheTerminalText) {
   const std::string html = render_html(sample());
-  for (const char* text : {"The verdict is",
-                           "Do this.",
-                           "And that.",
-                           "Not that it is perfect.",
-                           "An assumption",
-                           "The anchors, mm",
-                           "change, mm",
-                           "only there",
-                           "tl x",
-                           ">12.35<",
-                           ">+1.2<",
-                           ">moved<",
-                           "a caption",
-                           "One",
-                           "Below one",
-                           "Two",
-                           "in words",
-                           "97 %",
-                           "a paragraph",
-                           "a detail",
-                           "all of it",
-                           "page paragraph"})
+  for (const char* text : {"The verdict is", "Do this.",
+                           "And that.",      "Not that it is perfect.",
+                           "An assumption",  "The anchors, mm",
+                           "change, mm",     "only there",
+                           "tl x",           ">12.35<",
+                           ">+1.2<",         ">moved<",
+                           "a caption",      "One",
+                           "Below one",      "Two",
+                           "in words",       "97 %",
+                           "a paragraph",    "a detail",
+                           "all of it",      "page paragraph"})
     EXPECT_THAT(html, HasSubstr(text));
   EXPECT_THAT(html, HasSubstr(">\u22121234.50<")) << "a true minus sign";
   EXPECT_THAT(html, HasSubstr("1\u00a0\u00b1\u00a00.1")) << "one sign for +-";
@@ -128,7 +118,7 @@ TEST(Document, TablesLineUp) {
   std::getline(lines, line);  // empty
   std::getline(lines, line);
   EXPECT_EQ(line, "s");
-  constexpr std::size_t kLabel = 2 + 26;          // two blanks and the longest label
+  constexpr std::size_t kLabel = 2 + 26;            // two blanks and the longest label
   constexpr std::size_t kFitted = kLabel + 1 + 12;  // a blank and the longest number
   constexpr std::size_t kChange = kFitted + 9;
   std::getline(lines, line);
@@ -154,10 +144,8 @@ TEST(Document, ASectionWithoutLinesHasNoTitleOnTheTerminal) {
 TEST(Document, KeepsTextCells) {
   const std::string bad = "<b>&\"x\"</b>";
   Document document{.verdict = {bad}, .remarks = {"r", {Paragraph{bad}}}};
-  document.sections = {{bad,
-                        {Paragraph{bad},
-                         List{true, {{bad, {{bad}}}}},
-                         Table{{{bad}}, {{{bad}}}, bad}}}};
+  document.sections = {
+      {bad, {Paragraph{bad}, List{true, {{bad, {{bad}}}}}, Table{{{bad}}, {{{bad}}}, bad}}}};
   const std::string html = render_html(document);
   EXPECT_THAT(html, Not(HasSubstr("<b>&")));
   EXPECT_THAT(html, HasSubstr("&lt;b&gt;&amp;&quot;x&quot;&lt;/b&gt;"));

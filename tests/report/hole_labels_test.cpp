@@ -18,9 +18,7 @@ namespace {
 constexpr double kLeft = 30.0, kWide = 900.0;
 
 DrawnHole drawn(double x, double y, std::size_t number) {
-  return {x,
-          y,
-          std::string(1, static_cast<char>('A' + number)),
+  return {x, y, std::string(1, static_cast<char>('A' + number)),
           fmt::format("({:.0f}, {:.0f})", -x - 1000.0, -y - 1000.0)};
 }
 
@@ -65,8 +63,8 @@ TEST(HoleLabels, AreUnambiguousForRandomHoles) {
 TEST(HoleLabels, AreOmittedIfAmbiguous) {
   const std::vector<DrawnHole> holes = {drawn(300, 200, 0), drawn(340, 200, 1), drawn(380, 200, 2)};
   const auto labels = place_labels(holes, kLeft, kLeft + kWide);
-  EXPECT_TRUE(std::any_of(
-      labels.begin(), labels.end(), [](const HoleLabel& label) { return !label.has_place; }));
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
+                          [](const HoleLabel& label) { return !label.has_place; }));
   expect_readable(holes);
 }
 

@@ -14,7 +14,8 @@ namespace chaintrue::report::testing {
 
 std::string made_by(const std::string& line, const std::string& file) {
   const testing_support::TemporaryFolder folder;
-  if (testing_support::run_line(folder.path(), line).code != 0) throw std::runtime_error("failed: " + line);
+  if (testing_support::run_line(folder.path(), line).code != 0)
+    throw std::runtime_error("failed: " + line);
   return testing_support::read_text(folder / file);
 }
 
@@ -45,7 +46,8 @@ grid::diagnosis::Diagnosis diagnosis_with_laws() {
   step.from = -1200.0;
   step.to = 1200.0;
   step.parameters = {{"size_mm", 0.3, 0.1}, {"place_mm", 100.0, 50.0}};
-  for (std::size_t k = 0; k < step.points.size(); ++k) step.points[k].at = found.points[k].mark.x_mm;
+  for (std::size_t k = 0; k < step.points.size(); ++k)
+    step.points[k].at = found.points[k].mark.x_mm;
   if (!found.unexplained) found.unexplained.emplace();
   found.unexplained->laws = {wave, step};
   return found;

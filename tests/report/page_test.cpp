@@ -11,9 +11,9 @@
 #include <regex>
 #include <set>
 
+#include "tests/support/refusal.hpp"
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/embedded.hpp"
-#include "tests/support/refusal.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -60,8 +60,8 @@ TEST(Page, EscapesText) {
 
 /// File names are bytes; a page is UTF-8 in every case.
 TEST(Page, ReplacesInvalidBytes) {
-  const std::string bad[] = {
-      "\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82"};
+  const std::string bad[] = {"\xFF",    "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80",
+                             "\xE2\x82"};
   for (const std::string& bytes : bad) {
     Document document = sample_document();
     document.title = "a" + bytes + "b";
@@ -173,12 +173,15 @@ TEST(Page, WithoutChartsThereIsNoScript) {
 TEST(Page, RefusesNonFiniteNumbers) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT(refusal_of([bad] { (void)render_html(page_with_value(bad)); }), HasSubstr("rms_mm is"));
+    EXPECT_THAT(refusal_of([bad] { (void)render_html(page_with_value(bad)); }),
+                HasSubstr("rms_mm is"));
   }
 }
 
 TEST(Page, RefusesRowsOfTheWrongLength) {
-  EXPECT_EQ(refusal_of([] { (void)render_html(page_with_table({"1", "2", "3"})); }),
+  EXPECT_EQ(refusal_of([] {
+              (void)render_html(page_with_table({"1", "2", "3"}));
+            }),
             "a table row has 3 cells for 2 columns");
   Document page = page_with_value(1.0);
   std::get<Chart>(page.sections[0].blocks[0]).data[0].rows[0].clear();

@@ -28,8 +28,8 @@ std::vector<ReportPoint> sample_points() {
       point.after = after;
       point.before =
           ToolVector{6.0 * u - 2.0 * u * v + after.x_mm, 1.5 + 9.0 * u * u - 4.0 * v + after.y_mm};
-      point.held_out =
-          ToolVector{1.5 * after.x_mm + 0.05 * random.normal(), 1.5 * after.y_mm + 0.05 * random.normal()};
+      point.held_out = ToolVector{1.5 * after.x_mm + 0.05 * random.normal(),
+                                  1.5 * after.y_mm + 0.05 * random.normal()};
       point.held_out_sigmas = std::hypot(after.x_mm, after.y_mm) / kNoiseMm;
       points.push_back(point);
     }
@@ -48,9 +48,7 @@ ErrorMap sample_error_map() {
       const double y_mm = -kBedHeightMm / 2 + (row + 0.5) * map.cell_height_mm;
       const double u = x_mm / kBedWidthMm, v = y_mm / kBedHeightMm;
       const bool is_inside = std::abs(x_mm) < 1100.0 && std::abs(y_mm) < 500.0;
-      map.cells.push_back({x_mm,
-                           y_mm,
-                           0.08 + 0.5 * u * u * u * u * 16 * 0.3 + 0.35 * v * v,
+      map.cells.push_back({x_mm, y_mm, 0.08 + 0.5 * u * u * u * u * 16 * 0.3 + 0.35 * v * v,
                            is_inside ? "inside" : "extrapolated"});
     }
   }

@@ -56,41 +56,48 @@ TEST_P(SealedSmoke, DiagnosisFindsTheHiddenCause) {
 
 // 28 points each, strengths of 7 to 22.
 const std::vector<std::string> kAlone = {"alone", "nothing_false", "bad_found", "no_pattern"};
-INSTANTIATE_TEST_SUITE_P(Chains,
-                         SealedSmoke,
-                         testing::Values(Set{"single", 1000014, {"tape_scale:y"}, kAlone},
-                                         Set{"single", 1000018, {"axes_skew:-"}, kAlone},
-                                         Set{"single", 1000041, {"ring_radius:-"}, kAlone},
-                                         Set{"single", 1000008, {"chain_sag:-"}, kAlone},
-                                         Set{"single", 1000000, {"chain_stretch:-"}, kAlone},
-                                         Set{"single", 1000026, {"beam_flex:-"}, kAlone},
-                                         Set{"single", 1000010, {"side_pull:-"}, kAlone},
-                                         Set{"single", 1000034, {"chain_plane_offset:-"}, kAlone},
-                                         Set{"single", 1000040, {"sprocket_eccentricity:left"}, kAlone},
-                                         Set{"single", 1000050, {"angular_kink:right"}, kAlone},
-                                         Set{"single", 1000028, {"direction_hysteresis:both"}, kAlone},
-                                         Set{"single", 1000032, {"chain_pitch_error:left"}, kAlone},
-                                         Set{"single", 1000062, {"drift:left"}, kAlone},
-                                         Set{"single", 1000001, {"tooth_skip:right"}, kAlone},
-                                         Set{"single", 1000006, {"link_miscount:right"}, kAlone}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Chains, SealedSmoke,
+    testing::Values(Set{"single", 1000014, {"tape_scale:y"}, kAlone},
+                    Set{"single", 1000018, {"axes_skew:-"}, kAlone},
+                    Set{"single", 1000041, {"ring_radius:-"}, kAlone},
+                    Set{"single", 1000008, {"chain_sag:-"}, kAlone},
+                    Set{"single", 1000000, {"chain_stretch:-"}, kAlone},
+                    Set{"single", 1000026, {"beam_flex:-"}, kAlone},
+                    Set{"single", 1000010, {"side_pull:-"}, kAlone},
+                    Set{"single", 1000034, {"chain_plane_offset:-"}, kAlone},
+                    Set{"single", 1000040, {"sprocket_eccentricity:left"}, kAlone},
+                    Set{"single", 1000050, {"angular_kink:right"}, kAlone},
+                    Set{"single", 1000028, {"direction_hysteresis:both"}, kAlone},
+                    Set{"single", 1000032, {"chain_pitch_error:left"}, kAlone},
+                    Set{"single", 1000062, {"drift:left"}, kAlone},
+                    Set{"single", 1000001, {"tooth_skip:right"}, kAlone},
+                    Set{"single", 1000006, {"link_miscount:right"}, kAlone}),
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(
-    SeveralOrNone,
-    SealedSmoke,
-    testing::Values(Set{"two", 1010005, {"chain_pitch_error:left", "angular_kink:left"}, {"all", "nothing_false"}},
-                    Set{"three", 1020002, {"side_pull:-", "beam_flex:-", "axes_skew:-"}, {"all", "nothing_false"}},
+    SeveralOrNone, SealedSmoke,
+    testing::Values(Set{"two",
+                        1010005,
+                        {"chain_pitch_error:left", "angular_kink:left"},
+                        {"all", "nothing_false"}},
+                    Set{"three",
+                        1020002,
+                        {"side_pull:-", "beam_flex:-", "axes_skew:-"},
+                        {"all", "nothing_false"}},
                     Set{"nothing", 1100001, {}, {"no_name", "no_pattern", "no_more_bad"}},
                     Set{"heavy", 1110001, {}, {"no_name", "no_pattern", "no_more_bad"}},
                     Set{"wrong_noise", 1120002, {}, {"no_name", "no_pattern", "no_more_bad"}},
                     Set{"pattern", 1050002, {}, {"pattern", "refused", "no_name"}},
                     Set{"bad_points", 1080001, {}, {"only_bad_points", "bad_found", "no_more_bad"}},
-                    Set{"bad_points_and_effect", 1090004, {"side_pull:-"}, {"alone", "bad_found", "no_more_bad"}}),
+                    Set{"bad_points_and_effect",
+                        1090004,
+                        {"side_pull:-"},
+                        {"alone", "bad_found", "no_more_bad"}}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
-    BeltsAndHoles,
-    SealedSmoke,
+    BeltsAndHoles, SealedSmoke,
     testing::Values(Set{"belts_middle", 1160004, {"belt_stretch:-"}, {"alone", "right_belt"}},
                     Set{"belts_middle", 1160003, {"anchor_height:tr"}, {"alone", "right_belt"}},
                     Set{"belts_middle", 1160049, {"belt_scale:tl"}, {"alone", "right_belt"}},
@@ -112,9 +119,12 @@ TEST(PlotterSmoke, DiagnosisNamesTheHiddenCauseAndNothingOnASoundPlotter) {
                                  Drawing{PlotterKind::light_pen, {"cord_weight", "both"}},
                                  Drawing{PlotterKind::mural, {}}}) {
     constexpr std::uint64_t kSeed = 1001;
-    SCOPED_TRACE(testing::Message() << name(drawing.kind) << " " << drawing.cause.effect << ", seed " << kSeed);
-    const PlotterOutcome outcome = outcome_of(plotter_set(drawing.kind, drawing.cause, 12.0, 16.0, kSeed));
-    EXPECT_EQ(outcome, drawing.cause.effect.empty() ? PlotterOutcome::nothing : PlotterOutcome::named);
+    SCOPED_TRACE(testing::Message()
+                 << name(drawing.kind) << " " << drawing.cause.effect << ", seed " << kSeed);
+    const PlotterOutcome outcome =
+        outcome_of(plotter_set(drawing.kind, drawing.cause, 12.0, 16.0, kSeed));
+    EXPECT_EQ(outcome,
+              drawing.cause.effect.empty() ? PlotterOutcome::nothing : PlotterOutcome::named);
   }
 }
 
@@ -169,7 +179,8 @@ TEST(MapSmoke, OmittedNumbersAreReportedIfTheyContradictTheFit) {
   const auto& map = fit->map.contents();
   EXPECT_THAT(map.notes, Contains(HasSubstr("The larger number is reported")));
   // Noise of 0.2 mm in a chain and 0.3 mm in each coordinate is below 0.3 mm^2 at the tool.
-  EXPECT_GT(map.accuracy.expected_tool.rms_mm, std::sqrt(std::pow(map.accuracy.blocked.tool.rms_mm, 2) - 0.3))
+  EXPECT_GT(map.accuracy.expected_tool.rms_mm,
+            std::sqrt(std::pow(map.accuracy.blocked.tool.rms_mm, 2) - 0.3))
       << "seed " << kSeed;
 }
 

@@ -32,8 +32,8 @@ bool read_choice(int argc, char** argv, Choice& choice) {
     char end = 0;
     if (argument.substr(0, kFolder.size()) == kFolder) {
       choice.folder = argument.substr(kFolder.size());
-    } else if (std::sscanf(argv[i], "--part=%u/%u%c", &choice.part, &choice.parts, &end) != 2 || choice.part < 1 ||
-               choice.part > choice.parts) {
+    } else if (std::sscanf(argv[i], "--part=%u/%u%c", &choice.part, &choice.parts, &end) != 2 ||
+               choice.part < 1 || choice.part > choice.parts) {
       return false;
     }
   }
@@ -68,7 +68,8 @@ int leave_out_others(const Choice& choice) {
   }
   const std::string filter = GTEST_FLAG_GET(filter);
   const bool has_negative = filter.find('-') != std::string::npos;
-  if (!others.empty()) GTEST_FLAG_SET(filter, filter + (has_negative ? others : "-" + others.substr(1)));
+  if (!others.empty())
+    GTEST_FLAG_SET(filter, filter + (has_negative ? others : "-" + others.substr(1)));
   return chosen;
 }
 

@@ -35,7 +35,8 @@ std::string results_of(const files::ReadSweep& read, const fs::path& folder) {
 
 std::ptrdiff_t finished_in(const fs::path& folder, const files::ReadSweep& read) {
   const files::FinishedCells cells = files::finished_cells(folder, read);
-  return std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return cell.has_value(); });
+  return std::count_if(cells.begin(), cells.end(),
+                       [](const auto& cell) { return cell.has_value(); });
 }
 
 std::uint64_t run_in(const fs::path& folder, const files::ReadSweep& read, const SweepRun& run) {
@@ -82,14 +83,14 @@ TEST(Sweep, ResumesFromAnyTruncation) {
   ASSERT_EQ(std::count(complete.begin(), complete.end(), '\n'), 9) << "a header and eight cells";
   const std::size_t first = complete.find('\n') + 1;
   const std::size_t second = complete.find('\n', first) + 1;
-  for (const std::size_t length :
-       {std::size_t{0}, std::size_t{5}, first - 1, first, first + 1, second - 1, second, complete.size() - 1}) {
+  for (const std::size_t length : {std::size_t{0}, std::size_t{5}, first - 1, first, first + 1,
+                                   second - 1, second, complete.size() - 1}) {
     SCOPED_TRACE(length);
     const fs::path folder = fresh_folder("torn");
     fs::create_directories(folder / "parts");
     std::ofstream(folder / part, std::ios::binary) << complete.substr(0, length);
     SweepRun run;
-      const std::uint64_t computed = run_in(folder, read, run);
+    const std::uint64_t computed = run_in(folder, read, run);
     // A line whose end alone is lost still has its check.
     EXPECT_EQ(computed, length < second - 1 ? 8U : length <= second ? 7U : 0U);
     EXPECT_EQ(results_of(read, folder), whole);

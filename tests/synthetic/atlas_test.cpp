@@ -13,9 +13,9 @@
 #include "grid/synthetic/atlas.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_mechanism.hpp"
-#include "model/reading_model.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::synthetic::atlas_tests {
 namespace {
@@ -123,7 +123,8 @@ std::vector<double> ways(const Mechanism& set, const AtlasLine& line, std::size_
 }
 
 /// The largest difference of what is read where a frame was drawn to what was paid out, mm.
-double worst_of_two(const Mechanism& set, const Mechanism& actual, const Atlas& atlas, const AtlasFrame& frame) {
+double worst_of_two(const Mechanism& set, const Mechanism& actual, const Atlas& atlas,
+                    const AtlasFrame& frame) {
   double worst = 0.0;
   for (std::size_t k = 0; k < atlas.lines.size(); ++k) {
     for (std::size_t i = 0; i < atlas.lines[k].points.size(); ++i) {
@@ -138,10 +139,8 @@ double worst_of_two(const Mechanism& set, const Mechanism& actual, const Atlas& 
   return worst;
 }
 
-double worst_of_belts(const model::BeltMachine& set,
-                      const model::BeltMechanism& actual,
-                      const Atlas& atlas,
-                      const AtlasFrame& frame) {
+double worst_of_belts(const model::BeltMachine& set, const model::BeltMechanism& actual,
+                      const Atlas& atlas, const AtlasFrame& frame) {
   const auto set_centre = model::centre_of(set);
   const auto centre = model::centre_of(actual.machine());
   double worst = 0.0;
@@ -153,8 +152,7 @@ double worst_of_belts(const model::BeltMachine& set,
       const ToolPosition drawn{centre.x_mm + frame.lines[k][i]->x_mm,
                                centre.y_mm + frame.lines[k][i]->y_mm};
       const auto read = actual.predict(drawn, {.order = kAtlasPlaces + static_cast<int>(k)});
-      worst = std::max({worst,
-                        std::abs(read->lengths_mm[0] - span(set.anchors.tl, x, y)),
+      worst = std::max({worst, std::abs(read->lengths_mm[0] - span(set.anchors.tl, x, y)),
                         std::abs(read->lengths_mm[1] - span(set.anchors.tr, x, y))});
     }
   }
@@ -190,9 +188,7 @@ TEST_P(EveryPicture, MatchesTheMachineWithTheCause) {
       } else {
         // Anchors of the estimator are within 1e-6 of their sigmas, of some millimetres here.
         EXPECT_LT(worst_of_belts(believed(picture, frame.size),
-                                 dynamic_cast<const model::BeltMechanism&>(*actual),
-                                 atlas,
-                                 frame),
+                                 dynamic_cast<const model::BeltMechanism&>(*actual), atlas, frame),
                   1e-3);
       }
     }
@@ -215,8 +211,7 @@ TEST_P(EveryPicture, ShowsTheUsualSizeAndMovesSomeLine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Atlas,
-                         EveryPicture,
+INSTANTIATE_TEST_SUITE_P(Atlas, EveryPicture,
                          ::testing::Values("chains", "point", "mural", "belts"),
                          [](const auto& tested) { return std::string(tested.param); });
 

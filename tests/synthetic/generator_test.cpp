@@ -55,8 +55,8 @@ TEST(Design, ChebyshevSpacingIsDenserAtTheEdges) {
   for (int i = 0; i < 7; ++i) {
     // Chebyshev-Lobatto nodes -cos(pi i / 6), closed forms: 1, sqrt(3)/2, 1/2, 0.
     const double nodes[] = {-1.0, -std::sqrt(0.75), -0.5, 0.0, 0.5, std::sqrt(0.75), 1.0};
-    EXPECT_NEAR(
-        pattern[static_cast<std::size_t>(i)].place.x_mm, 1200.0 * nodes[i], 1e-10);  // rounding
+    EXPECT_NEAR(pattern[static_cast<std::size_t>(i)].place.x_mm, 1200.0 * nodes[i],
+                1e-10);  // rounding
   }
 }
 
@@ -113,7 +113,8 @@ TEST(VisitingOrder, GoesAlongRowsAndColumnsAndTurns) {
   EXPECT_EQ(cells_of(VisitingOrder::columns), "00 01 10 11 20 21 ");
   EXPECT_EQ(cells_of(VisitingOrder::serpentine_columns), "00 01 11 10 20 21 ");
   const std::string any = cells_of(VisitingOrder::random);
-  for (const char* cell : {"00 ", "10 ", "20 ", "01 ", "11 ", "21 "}) EXPECT_THAT(any, HasSubstr(cell));
+  for (const char* cell : {"00 ", "10 ", "20 ", "01 ", "11 ", "21 "})
+    EXPECT_THAT(any, HasSubstr(cell));
   EXPECT_EQ(any.size(), 18U);
 }
 
@@ -268,8 +269,7 @@ TEST(Generator, ListsSlipsAndMiscountedLinks) {
   ASSERT_THAT(slips.answer.bad_points, SizeIs(2));
   for (std::size_t i = 0; i < slips.grid.points.size(); ++i) {
     const bool is_bad = slips.answer.bad_points[0] == i || slips.answer.bad_points[1] == i;
-    EXPECT_NEAR(distance(slips.grid.points[i].mark, slips.answer.places[i]),
-                is_bad ? 12.0 : 0.0,
+    EXPECT_NEAR(distance(slips.grid.points[i].mark, slips.answer.places[i]), is_bad ? 12.0 : 0.0,
                 1e-9);  // rounding
   }
 }
@@ -286,11 +286,9 @@ TEST(Generator, WritesThePaperInTheSheetsFrame) {
     const double x = mark.x_mm / 1.001;
     // bed = shift + R sheet, rounding of numbers of 1200
     EXPECT_NEAR(session.answer.places[i].x_mm,
-                12.0 + std::cos(0.005) * x - std::sin(0.005) * mark.y_mm,
-                1e-11);
+                12.0 + std::cos(0.005) * x - std::sin(0.005) * mark.y_mm, 1e-11);
     EXPECT_NEAR(session.answer.places[i].y_mm,
-                -7.0 + std::sin(0.005) * x + std::cos(0.005) * mark.y_mm,
-                1e-11);
+                -7.0 + std::sin(0.005) * x + std::cos(0.005) * mark.y_mm, 1e-11);
   }
 }
 

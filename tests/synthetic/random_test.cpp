@@ -24,20 +24,8 @@ TEST(Random, IsThePublishedGenerator) {
 
 // A normal number is the quantile of a uniform one. Phi(z) = erfc(-z / sqrt 2) / 2 undoes it, over all three ranges of the approximation.
 TEST(NormalQuantile, InvertsTheNormalDistribution) {
-  for (const double p : {1e-300,
-                         1e-100,
-                         1e-30,
-                         1e-12,
-                         1e-11,
-                         1e-6,
-                         0.01,
-                         0.074,
-                         0.076,
-                         0.25,
-                         0.5,
-                         0.75,
-                         0.93,
-                         0.99}) {
+  for (const double p : {1e-300, 1e-100, 1e-30, 1e-12, 1e-11, 1e-6, 0.01, 0.074, 0.076, 0.25, 0.5,
+                         0.75, 0.93, 0.99}) {
     const double z = normal_quantile(p);
     const double back = 0.5 * std::erfc(-z / std::sqrt(2.0));
     // A relative error of 1e-16 in z turns into z^2 times as much in a tail p; z^2 < 1400 here.

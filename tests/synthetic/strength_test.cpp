@@ -61,8 +61,8 @@ TEST(Strength, FollowsNoiseAndPoints) {
   const StrengthTable table(machine, session, noise_of(0.2, 0.3));
   const EffectStrength s = table.strength(kink, EffectSide::left);
   // 4.5 mm/rad is the usual size.
-  EXPECT_NEAR(
-      s.detectable_size * s.signal_to_noise / 4.5, kDetectableSignalToNoise, 1e-9);  // rounding
+  EXPECT_NEAR(s.detectable_size * s.signal_to_noise / 4.5, kDetectableSignalToNoise,
+              1e-9);  // rounding
   EXPECT_GT(s.share_left, 0.0);
   EXPECT_LE(s.share_left, 1.0);
   const StrengthTable twice(machine, session, noise_of(0.4, 0.6));
@@ -85,8 +85,7 @@ TEST(Strength, MirroredEffectsAreEquallyStrong) {
   const StrengthTable table(machine, regular_session(machine, 7, 4), noise_of(0.2, 0.3));
   const auto& pitch = *find_effect("chain_pitch_error");
   EXPECT_NEAR(table.strength(pitch, EffectSide::left).signal_to_noise,
-              table.strength(pitch, EffectSide::right).signal_to_noise,
-              1e-6);
+              table.strength(pitch, EffectSide::right).signal_to_noise, 1e-6);
 }
 
 // effects.md: chain_pitch_error of both chains equals tape_scale of both axes if the motors'
@@ -103,8 +102,8 @@ TEST(Strength, FindsTheClassOfPitchAndTape) {
 
 TEST(Strength, TheSprocketsRadiusIsNeverNamed) {
   const Machine machine;
-  const EffectPicture picture = picture_effect(
-      machine, *find_effect("sprocket_radius"), EffectSide::none, {0.17}, noise_of(0.2, 0.3));
+  const EffectPicture picture = picture_effect(machine, *find_effect("sprocket_radius"),
+                                               EffectSide::none, {0.17}, noise_of(0.2, 0.3));
   ASSERT_EQ(picture.strengths.size(), 3U);
   EXPECT_EQ(picture.strengths[0].columns * picture.strengths[0].rows, 28);
   EXPECT_EQ(picture.strengths[1].columns * picture.strengths[1].rows, 60);
@@ -113,8 +112,8 @@ TEST(Strength, TheSprocketsRadiusIsNeverNamed) {
 }
 
 TEST(EffectPicture, SkewedPaperShearsTheSquare) {
-  const EffectPicture picture = picture_effect(
-      Machine{}, *find_effect("axes_skew"), EffectSide::none, {0.01}, noise_of(0.2, 0.3));
+  const EffectPicture picture = picture_effect(Machine{}, *find_effect("axes_skew"),
+                                               EffectSide::none, {0.01}, noise_of(0.2, 0.3));
   const ShiftedSquare& square = picture.squares.front();
   // x shifts by y g: sides sqrt(100^2 + 1), diagonals of the sheared square; marks move by first
   // order exactly.

@@ -61,9 +61,7 @@ std::string relief_line(std::uint64_t number) {
   const std::uint64_t column = number % kColumns;
   const double x = -500.0 + 0.8 * static_cast<double>(row % 2 == 0 ? column : kColumns - column);
   const double y = -300.0 + static_cast<double>(row);
-  return fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} F1500\n",
-                     x,
-                     y,
+  return fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} F1500\n", x, y,
                      -3.0 + 2.0 * std::sin(0.03 * x) * std::cos(0.02 * y));
 }
 
@@ -105,8 +103,7 @@ class ReliefStream final : public std::istream {
 };
 
 /// \param proves the output runs on the simulated machine, too
-void compensate(benchmark::State& state,
-                const std::function<LineSource()>& open,
+void compensate(benchmark::State& state, const std::function<LineSource()>& open,
                 bool proves = false) {
   const Fitted& machine = fitted();
   std::uint64_t blocks = 0;

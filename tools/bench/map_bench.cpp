@@ -37,15 +37,12 @@ auto place_by_place(Ask ask) {
 
 /// A thousand places at once, as in compensating or drawing a program.
 template <class Answer>
-auto thousand_places(void (*ask)(const grid::CompensationMap&,
-                                 std::span<const model::MarkPoint>,
+auto thousand_places(void (*ask)(const grid::CompensationMap&, std::span<const model::MarkPoint>,
                                  std::span<Answer>)) {
   return [ask](const benchmark::State&) {
     std::vector<model::MarkPoint> places;
     for (int i = 0; i < 1000; ++i) places.push_back({2.0 * i - 1000.0, 0.5 * i - 250.0});
-    return [ask,
-            places,
-            map = grid::fit(grid_of(7, 4)).value(),
+    return [ask, places, map = grid::fit(grid_of(7, 4)).value(),
             answers = std::vector<Answer>(places.size())]() mutable {
       ask(map, places, answers);
       return answers.data();
@@ -62,20 +59,16 @@ auto fit_of(int columns, int rows) {
 const benchmark::internal::Benchmark* const of_maps[] = {
     bench::add("map/fit/28_points", fit_of(7, 4)),
     bench::add("map/fit/91_points", fit_of(13, 7)),
-    bench::add(
-        "map/lengths",
-        place_by_place([](const auto& map, const auto& place) { return map.lengths(place); }),
-        benchmark::kNanosecond),
+    bench::add("map/lengths", place_by_place([](const auto& map, const auto& place) {
+                 return map.lengths(place);
+               }),
+               benchmark::kNanosecond),
     bench::add("map/query",
                place_by_place([](const auto& map, const auto& place) { return map.query(place); }),
                benchmark::kNanosecond),
-    bench::add("map/query/1000_places",
-               thousand_places<grid::MapAnswerOrFailure>(grid::query),
-               benchmark::kMillisecond,
-               1000),
-    bench::add("map/lengths/1000_places",
-               thousand_places<grid::MapLengthsOrFailure>(grid::lengths),
-               benchmark::kMillisecond,
-               1000)};
+    bench::add("map/query/1000_places", thousand_places<grid::MapAnswerOrFailure>(grid::query),
+               benchmark::kMillisecond, 1000),
+    bench::add("map/lengths/1000_places", thousand_places<grid::MapLengthsOrFailure>(grid::lengths),
+               benchmark::kMillisecond, 1000)};
 
 }  // namespace

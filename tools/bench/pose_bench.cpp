@@ -29,10 +29,8 @@ EquilibriumParameters classic(const Attachment& attachment) {
 
 /// `prepare(kinematics)` returns the items, `work(kinematics, item)` is what is measured.
 template <class Prepare, class Work>
-const benchmark::internal::Benchmark* add(const char* name,
-                                          Model model,
-                                          const Attachment& attachment,
-                                          Prepare prepare,
+const benchmark::internal::Benchmark* add(const char* name, Model model,
+                                          const Attachment& attachment, Prepare prepare,
                                           Work work) {
   const auto prepared = [=](const benchmark::State&) {
     std::shared_ptr<const Kinematics> kinematics = make_kinematics(classic(attachment), model);

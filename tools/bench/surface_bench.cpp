@@ -90,8 +90,7 @@ constexpr std::size_t kPoints = 64 * kBlock;
 
 auto value_gradient(const Samples& samples, std::vector<PlanePoint> (*points_of)(std::size_t)) {
   return [=](const benchmark::State&) {
-    return [surfaces = table(samples),
-            points = points_of(kPoints),
+    return [surfaces = table(samples), points = points_of(kPoints),
             results = std::vector<PairGradient>(kBlock)]() mutable {
       for (std::size_t k = 0; k < points.size(); ++k) {
         results[k % kBlock] = surfaces.at(points[k].x, points[k].y);
@@ -185,7 +184,8 @@ const bool registered = [] {
     add("surface/alglib/build" + size, measure(alglib_pair), benchmark::kNanosecond);
   }
   for (const bool corrected : {false, true}) {
-    add(corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points",
+    add(
+        corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points",
         [corrected](const benchmark::State&) {
           FitOptions options;
           options.correct_covariance = corrected;

@@ -19,8 +19,7 @@ namespace chaintrue::bench {
 /// `prepare(state)` returns what is measured.
 /// \param items that one run of the work handles; 0: not counted
 template <class Prepare>
-benchmark::internal::Benchmark* add(const std::string& name,
-                                    Prepare prepare,
+benchmark::internal::Benchmark* add(const std::string& name, Prepare prepare,
                                     benchmark::TimeUnit unit = benchmark::kMillisecond,
                                     std::int64_t items = 0) {
   return benchmark::RegisterBenchmark(name.c_str(),

@@ -55,14 +55,10 @@ report::Column variance_share(std::string heading, std::string page_heading, int
 }
 
 Section fitted_anchors_section(const BeltsFit& fit) {
-  Table table{.columns = {text_column("Anchor", 6),
-                          number_column("fitted", 12),
-                          number_column("sure to", 9),
-                          number_column("in force", 11, 1),
-                          signed_column("differs", 9, 1),
-                          variance_share("rests on tl", "", 14),
-                          variance_share("tr", "on tr", 5),
-                          variance_share("bl", "on bl", 5),
+  Table table{.columns = {text_column("Anchor", 6), number_column("fitted", 12),
+                          number_column("sure to", 9), number_column("in force", 11, 1),
+                          signed_column("differs", 9, 1), variance_share("rests on tl", "", 14),
+                          variance_share("tr", "on tr", 5), variance_share("bl", "on bl", 5),
                           variance_share("br", "on br", 5)},
               .caption = std::string(kAnchorsCaption) +
                          " Rests on: share of its variance from each belt's readings.",
@@ -79,19 +75,15 @@ Section fitted_anchors_section(const BeltsFit& fit) {
 
 Section places_section(const FittedBelts& fitted) {
   const BeltsFit& fit = fitted.fit;
-  Table table{.columns = {number_column("Point", 3, 0),
-                          number_column("x", 10, 1),
-                          number_column("y", 10, 1),
-                          number_column("read minus fitted, mm:   tl", 30),
-                          number_column("tr", 8),
-                          number_column("bl", 8),
-                          number_column("br", 8)},
-              .is_headed = true};
+  Table table{
+      .columns = {number_column("Point", 3, 0), number_column("x", 10, 1),
+                  number_column("y", 10, 1), number_column("read minus fitted, mm:   tl", 30),
+                  number_column("tr", 8), number_column("bl", 8), number_column("br", 8)},
+      .is_headed = true};
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     const grid::FittedPlace& place = fit.places[k];
     Row& row = table.rows.emplace_back();
-    row.cells = {static_cast<double>(1 + grid::index_in_file(fitted.indices, k)),
-                 place.at.x_mm,
+    row.cells = {static_cast<double>(1 + grid::index_in_file(fitted.indices, k)), place.at.x_mm,
                  place.at.y_mm};
     for (const Belt belt : kBelts) {
       const auto& residual = place.belts[belt];
@@ -115,20 +107,16 @@ Section taped_section(const grid::HolesWithBelts& holes) {
               .is_headed = true,
               .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {
-    table.rows.push_back(report::row_with_flag({distance.words,
-                                                distance.measured_mm,
-                                                distance.residual_mm,
-                                                distance.left_out_mm,
-                                                distance.left_out_sigma_mm},
-                                               distance.rejected,
-                                               "*"));
+    table.rows.push_back(
+        report::row_with_flag({distance.words, distance.measured_mm, distance.residual_mm,
+                               distance.left_out_mm, distance.left_out_sigma_mm},
+                              distance.rejected, "*"));
   }
   return {"Holes on the sheet", {std::move(table)}, false, Detail::verbose};
 }
 
 /// The headline, and below it figures, lights and advice.
-void put_the_verdict(const FittedBelts& fitted,
-                     const std::optional<BeltsError>& error,
+void put_the_verdict(const FittedBelts& fitted, const std::optional<BeltsError>& error,
                      Document& page) {
   const BeltsFit& fit = fitted.fit;
   page.verdict = {headline_of(fit, error)};
@@ -140,8 +128,7 @@ void put_the_verdict(const FittedBelts& fitted,
          Detail::page});
   }
   page.tone = fit.bad.empty() && fit.bad_points.empty() ? Tone::good : Tone::caution;
-  page.lights = {{fit.scale ? Tone::good : Tone::caution,
-                  "Scale known?",
+  page.lights = {{fit.scale ? Tone::good : Tone::caution, "Scale known?",
                   fit.scale ? "yes, from the tape" : "no, not taped"}};
   if (fit.scale) {
     page.figures.push_back({fmt::format("{:.5f} +- {:.5f}", fit.scale->factor, fit.scale->sigma),
@@ -151,8 +138,7 @@ void put_the_verdict(const FittedBelts& fitted,
 
 }  // namespace
 
-Document anchors_document(const FittedBelts& fitted,
-                          std::string_view name,
+Document anchors_document(const FittedBelts& fitted, std::string_view name,
                           std::string_view source) {
   const BeltsFit& fit = fitted.fit;
   Document document;

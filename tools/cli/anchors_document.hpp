@@ -26,8 +26,7 @@ struct FittedBelts {
 
 /// The agreement of the belts, the frame, the anchors, errors at left-out readings, the scale and
 /// the tape. `name` is the belts', `source` the file's.
-Document anchors_document(const FittedBelts& fitted,
-                          std::string_view name,
+Document anchors_document(const FittedBelts& fitted, std::string_view name,
                           std::string_view source);
 
 /// The machine's error, today and with these anchors.

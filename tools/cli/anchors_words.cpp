@@ -31,9 +31,7 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
   }
   const std::string size(id.effect->parameters.front().name);
   return fmt::format(
-      "{}{} ({}; {})",
-      id.effect->cause,
-      diagnosis::side_words(id),
+      "{}{} ({}; {})", id.effect->cause, diagnosis::side_words(id),
       diagnosis::in_workshop_units(id, {size, cause.parameters.at(size), cause.sigma}),
       diagnosis::percent(cause.probability));
 }
@@ -61,8 +59,7 @@ void list_causes(const BeltsFit& fit, Section& section) {
       section.say(
           fmt::format("The anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; the fit "
                       "allows for this.",
-                      cause.parameters.at("give_mm"),
-                      cause.sigma));
+                      cause.parameters.at("give_mm"), cause.sigma));
     }
     if (cause.effect != model::belts::belt_stretch.id) continue;
     section.say(fmt::format(
@@ -80,12 +77,10 @@ void list_left_out(const BeltsFit& fit, Section& section) {
   std::string text = fmt::format(
       "Lower belts predicted from the upper two, at places left out one by one: {:.2f} mm rms, "
       "{:.2f} mm at worst",
-      fit.one_left_out.rms_mm,
-      fit.one_left_out.largest_mm);
+      fit.one_left_out.rms_mm, fit.one_left_out.largest_mm);
   if (fit.half_left_out) {
     text += fmt::format("; each half of the places from the other: {:.2f} and {:.2f} mm",
-                        fit.half_left_out->rms_mm,
-                        fit.half_left_out->largest_mm);
+                        fit.half_left_out->rms_mm, fit.half_left_out->largest_mm);
   }
   section.say(text + ".", Detail::verbose);
 }
@@ -104,12 +99,9 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     section.say(fmt::format(
         "Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all others{}.",
-        model::words(bad.belt),
-        number_of(fitted, bad.point),
-        std::abs(bad.residual_mm),
+        model::words(bad.belt), number_of(fitted, bad.point), std::abs(bad.residual_mm),
         bad.residual_mm > 0.0 ? "longer" : "shorter",
-        is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
-                               std::abs(std::round(turns)),
+        is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder", std::abs(std::round(turns)),
                                std::abs(turns) < 1.5 ? "" : "s")
                  : ""));
   }
@@ -130,8 +122,7 @@ std::string what_tells_the_scale(const FittedBelts& fitted) {
   }
   return fmt::format(
       "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's \"distances\".",
-      words_of(best->distance.from, fitted.indices),
-      words_of(best->distance.to, fitted.indices),
+      words_of(best->distance.from, fitted.indices), words_of(best->distance.to, fitted.indices),
       best->distance.distance_mm);
 }
 
@@ -148,38 +139,32 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
   section.say(
       fmt::format("Scale: true lengths are {:.5f} +- {:.5f} times the belts' lengths "
                   "according to the tape, {:.1f} mm per metre.",
-                  fit.scale->factor,
-                  fit.scale->sigma,
-                  1000.0 * (fit.scale->factor - 1.0)));
+                  fit.scale->factor, fit.scale->sigma, 1000.0 * (fit.scale->factor - 1.0)));
   if (fitted.belts == nullptr) return;
   List taped;
   for (std::size_t i = 0; i < fitted.belts->distances.size(); ++i) {
     const grid::BeltDistance& distance = fitted.belts->distances[i];
-    taped.items.push_back({fmt::format("{} to {}: taped {:.1f} mm, {:+.2f} mm from the fit",
-                                       words_of(distance.from, fitted.indices),
-                                       words_of(distance.to, fitted.indices),
-                                       distance.distance_mm,
-                                       fit.scale->residuals_mm[i])});
+    taped.items.push_back(
+        {fmt::format("{} to {}: taped {:.1f} mm, {:+.2f} mm from the fit",
+                     words_of(distance.from, fitted.indices), words_of(distance.to, fitted.indices),
+                     distance.distance_mm, fit.scale->residuals_mm[i])});
   }
   section.blocks.emplace_back(std::move(taped));
 }
 
 void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   section.say(fmt::format("Holes: {} distances, which agree with each other to about {} mm.",
-                          holes.distances.size(),
-                          about_mm(holes.left_out_rms_mm)));
+                          holes.distances.size(), about_mm(holes.left_out_rms_mm)));
   section.say(fmt::format("Each distance is predicted from all others to {:.2f} mm rms; tape and "
                           "holes have {:.2g} times the error that you entered.",
-                          holes.left_out_rms_mm,
-                          holes.noise_factor),
+                          holes.left_out_rms_mm, holes.noise_factor),
               Detail::verbose);
   for (const auto& distance : holes.distances) {
     if (!distance.rejected) continue;
     section.say(
         fmt::format("Left out: the distance {}, taped {:.1f} mm {} than predicted by all others; "
                     "tape it again.",
-                    distance.words,
-                    std::abs(distance.left_out_mm),
+                    distance.words, std::abs(distance.left_out_mm),
                     distance.left_out_mm > 0.0 ? "longer" : "shorter"));
   }
   if (!holes.displacement) {
@@ -193,8 +178,7 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
       fmt::format("The tool is up to {:.1f} mm from the position given by its upper two "
                   "belts; this changes over about {:.0f} mm of the sheet. gcode compensate "
                   "corrects it, no setting does.",
-                  largest,
-                  holes.displacement->reach_mm));
+                  largest, holes.displacement->reach_mm));
 }
 
 double least_known_mm(const BeltsFit& fit) {
@@ -211,8 +195,7 @@ std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& e
   return fmt::format(
       "Do not paste these anchors: {} {} mm, and {:g} mm is too much. Measure more places, farther "
       "apart, and check the readings that were left out.",
-      error ? "with them the tool is still off by" : "they are known to",
-      about_mm(left_mm),
+      error ? "with them the tool is still off by" : "they are known to", about_mm(left_mm),
       kMostToCutWithMm);
 }
 
@@ -237,23 +220,17 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsEr
   section.say(
       fmt::format("{} places, {} readings: the error of one belt's reading is {:.2f} mm (one "
                   "sigma, {} degrees of freedom).",
-                  fit.places.size(),
-                  readings,
-                  fit.residual_sigma_mm,
-                  fit.checks),
+                  fit.places.size(), readings, fit.residual_sigma_mm, fit.checks),
       Detail::verbose);
   section.say(
       fmt::format(
           "The machine's formula (Find Anchors fit: rms) gives {:.2f} mm, because it divides "
           "by all {} readings although places and anchors use {} degrees of freedom.",
-          fit.rms_mm,
-          readings,
-          readings - static_cast<std::size_t>(fit.checks)),
+          fit.rms_mm, readings, readings - static_cast<std::size_t>(fit.checks)),
       Detail::verbose);
   if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
     section.say(fmt::format("The machine printed rms {:.2f} mm and max {:.2f} mm.",
-                            fitted.belts->firmware_fit->rms_mm,
-                            fitted.belts->firmware_fit->max_mm),
+                            fitted.belts->firmware_fit->rms_mm, fitted.belts->firmware_fit->max_mm),
                 Detail::verbose);
   }
   return section;

@@ -13,8 +13,7 @@
 
 namespace chaintrue::cli {
 
-Verb Verb::add_verb(const std::string& name,
-                    const std::string& help,
+Verb Verb::add_verb(const std::string& name, const std::string& help,
                     const std::string& footer) const {
   CLI::App* verb = app_->add_subcommand(name, help);
   if (!footer.empty()) verb->footer(footer);
@@ -38,8 +37,7 @@ void Verb::has(const std::vector<OptionRow>& rows) const {
   }
 }
 
-void Verb::acts_on(const std::string& option,
-                   const std::vector<ActsOn>& rules,
+void Verb::acts_on(const std::string& option, const std::vector<ActsOn>& rules,
                    const std::string& harmless) const {
   const std::string name = "--" + app_->get_option(option)->get_single_name();
   for (const auto& [facts, otherwise] : rules)

@@ -136,21 +136,17 @@ struct Value {
   template <class Number>
   Value(Number& number, const files::Range& range)
       : Value(
-            range,
-            std::is_integral_v<Number>,
+            range, std::is_integral_v<Number>,
             [&number](double given) { number = static_cast<Number>(given); },
             static_cast<double>(number)) {}
   template <class Number>
   Value(std::optional<Number>& number, const files::Range& range)
-      : Value(range, std::is_integral_v<Number>, [&number](double given) {
-          number = static_cast<Number>(given);
-        }) {}
+      : Value(range, std::is_integral_v<Number>,
+              [&number](double given) { number = static_cast<Number>(given); }) {}
   /// A word, of which `named` knows the meaning. \param usual the default's word
   /// \param expected what is said if `named` does not know it, with exit code 3
   template <class Meaning>
-  Value(Meaning& meaning,
-        std::optional<Meaning> (*named)(std::string_view word),
-        std::string usual,
+  Value(Meaning& meaning, std::optional<Meaning> (*named)(std::string_view word), std::string usual,
         std::string expected)
       : Value(std::move(usual), std::move(expected), [&meaning, named](const std::string& word) {
           const auto known = named(word);
@@ -215,8 +211,7 @@ class Verb {
   explicit Verb(CLI::App& app) : app_(&app) {}
 
   /// \param footer the end of the help, with an example; empty: that of the verb above
-  Verb add_verb(const std::string& name,
-                const std::string& help,
+  Verb add_verb(const std::string& name, const std::string& help,
                 const std::string& footer = {}) const;
   /// Options of which exactly one is to be given.
   Verb add_choice(const std::string& name) const;
@@ -224,8 +219,7 @@ class Verb {
   void require_verb() const;
   void has(const std::vector<OptionRow>& rows) const;
   /// Further rules of an option.
-  void acts_on(const std::string& option,
-               const std::vector<ActsOn>& rules,
+  void acts_on(const std::string& option, const std::vector<ActsOn>& rules,
                const std::string& harmless = {}) const;
   /// Using these options without the other is an error; `excludes`: with it.
   void needs(const Words& options, const std::string& other) const;
@@ -233,8 +227,7 @@ class Verb {
   /// The work done if the verb is chosen: `act(verb, *command)` or `act(*command)`, whose answer is
   /// the exit code. `check(*command)` is asked first, for usage_error().
   template <class Command, class Act>
-  void runs(const std::shared_ptr<Command>& command,
-            Act act,
+  void runs(const std::shared_ptr<Command>& command, Act act,
             std::function<void(const std::type_identity_t<Command>&)> check = {}) const {
     const auto first = [command, check] {
       if (check) check(*command);
@@ -247,10 +240,8 @@ class Verb {
 
   /// A verb below that works on a Command, which lives as long as the parser, as runs() does.
   template <class Command, class Act>
-  std::pair<Verb, Command&> add_verb(const std::string& name,
-                                     const std::string& help,
-                                     const std::string& footer,
-                                     Act act,
+  std::pair<Verb, Command&> add_verb(const std::string& name, const std::string& help,
+                                     const std::string& footer, Act act,
                                      std::function<void(const Command&)> check = {}) const {
     const auto command = std::make_shared<Command>();
     const Verb verb = add_verb(name, help, footer);

@@ -16,8 +16,8 @@ using model::kBelts;
 namespace {
 
 /// From Okabe and Ito's palette, distinguishable with every colour vision.
-constexpr model::PerBelt<const char*> kColors = {
-    report::kBeforeColor, report::kAfterColor, report::kFourthColor, report::kThirdColor};
+constexpr model::PerBelt<const char*> kColors = {report::kBeforeColor, report::kAfterColor,
+                                                 report::kFourthColor, report::kThirdColor};
 
 /// The longest stroke of a good reading, as a share of the frame's width.
 constexpr double kLongestStroke = 0.06;
@@ -62,13 +62,9 @@ DataTable anchors_table(const BeltsFindings& found) {
       {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"}};
   for (const Belt belt : kBelts) {
     const model::Anchor& anchor = found.machine.anchors[belt];
-    table.rows.push_back({std::string(model::words(belt)),
-                          anchor.x_mm,
-                          anchor.y_mm,
-                          sigma_mm(found, belt, 'x'),
-                          sigma_mm(found, belt, 'y'),
-                          std::string(kColors[belt]),
-                          belt == Belt::tl || belt == Belt::bl,
+    table.rows.push_back({std::string(model::words(belt)), anchor.x_mm, anchor.y_mm,
+                          sigma_mm(found, belt, 'x'), sigma_mm(found, belt, 'y'),
+                          std::string(kColors[belt]), belt == Belt::tl || belt == Belt::bl,
                           model::is_upper(belt)});
   }
   return table;
@@ -88,14 +84,9 @@ DataTable strokes_table(const BeltsFindings& found,
       const double off = (place.*which)[belt];
       // A bad reading's stroke would leave the picture.
       const double longest = 4.0 * kLongestStroke * width_mm(found) / magnification(found);
-      table.rows.push_back({fmt::format("point {}", k + 1),
-                            place.at.x_mm,
-                            place.at.y_mm,
-                            x / away,
-                            y / away,
-                            place.bad[belt] ? std::clamp(off, -longest, longest) : off,
-                            std::string(model::words(belt)),
-                            std::string(kColors[belt]),
+      table.rows.push_back({fmt::format("point {}", k + 1), place.at.x_mm, place.at.y_mm, x / away,
+                            y / away, place.bad[belt] ? std::clamp(off, -longest, longest) : off,
+                            std::string(model::words(belt)), std::string(kColors[belt]),
                             place.bad[belt]});
     }
   }
@@ -104,8 +95,7 @@ DataTable strokes_table(const BeltsFindings& found,
 
 }  // namespace
 
-Chart frame_chart(const BeltsFindings& found,
-                  std::string title,
+Chart frame_chart(const BeltsFindings& found, std::string title,
                   model::PerBelt<double> BeltPlacePicture::*which) {
   Chart chart{.specification = "belt_frame", .title = std::move(title)};
   DataTable frame{"frame", {"x_mm", "y_mm"}};

@@ -43,8 +43,7 @@ Document document_of(const grid::Check& check, Table table) {
       {"How sure",
        {Paragraph{fmt::format(
            "Still valid {:.1f} %, valid after re-zeroing {:.1f} %, no longer valid {:.1f} %.",
-           100.0 * check.probability[0],
-           100.0 * check.probability[1],
+           100.0 * check.probability[0], 100.0 * check.probability[1],
            100.0 * check.probability[2])}},
        false,
        Detail::always,
@@ -99,13 +98,8 @@ struct Answer {
 /// typed in
 Words next_of(const grid::Check& check, const CheckCommand& command, bool is_after) {
   if (check.settings_have_changed && !is_after) {
-    return {"export",
-            "groundcontrol",
-            command.map,
-            "-o",
-            "settings.ini",
-            "--map-after",
-            after_name(command.map)};
+    return {"export",      "groundcontrol",        command.map, "-o", "settings.ini",
+            "--map-after", after_name(command.map)};
   }
   if (check.is_valid_as_it_is())
     return {"report", command.map, "--certificate", "-o", "certificate.html"};
@@ -130,8 +124,7 @@ void say_other_settings(const CompensationMap& map, const grid::Measured& measur
     if (changes.empty()) continue;
     say("The machine's settings in {} differ from the map's ({}); those in the file are used. Give "
         "the controller's settings with --settings.",
-        file.name.empty() ? "the new points" : file.name,
-        files::in_words(changes));
+        file.name.empty() ? "the new points" : file.name, files::in_words(changes));
   }
 }
 
@@ -143,8 +136,8 @@ Answer check_of_map(const CheckCommand& command, const InputFiles& files, const 
     before = as_measured.machine()->controller.settings;
   grid::Measured measured;
   for (const InputFile& file : files)
-    measured.add(load_measured(
-        file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
+    measured.add(load_measured(file, command.input, command.tape, MeasuredUse::check,
+                               as_measured.machine()));
   if (command.settings.empty()) say_other_settings(as_measured, measured);
   const CompensationMap in_force =
       command.settings.empty()
@@ -154,27 +147,21 @@ Answer check_of_map(const CheckCommand& command, const InputFiles& files, const 
       value_of(grid::check_map(in_force, measured, shown_progress()), files.front().name);
   if (auto changed = with_typed_settings(in_force, measured, check, before))
     check = *std::move(changed);
-  return {check,
-          map_check_document(check),
-          files::write_map_check(check),
+  return {check, map_check_document(check), files::write_map_check(check),
           next_of(check, command, is_after)};
 }
 
 /// Valid anchors are reported; others are diagnosed.
-Answer check_of_anchors(const CheckCommand& command,
-                        const InputFiles& files,
+Answer check_of_anchors(const CheckCommand& command, const InputFiles& files,
                         const InputFile& anchors) {
   const files::FittedAnchors loaded = load_anchors(anchors);
-  require_kind(files.front(),
-               {FileKind::belts},
+  require_kind(files.front(), {FileKind::belts},
                "anchors are checked only against new belt lengths; fit holes and belts together "
                "(chaintrue fit BELTS --with HOLES)");
   const files::ReadBelts read = load_belts(files.front(), "a check");
   const grid::Check check =
       value_of(grid::check_anchors(loaded.fit, read.belts), files.front().name);
-  return {check,
-          anchors_check_document(check),
-          files::write_anchors_check(check),
+  return {check, anchors_check_document(check), files::write_anchors_check(check),
           check.is_valid_as_it_is()
               ? Words{"report", command.map, "-o", "anchors.html"}
               : Words{"diagnose", command.input.grid, "-o", "diagnosis.json"}};
@@ -222,17 +209,13 @@ Example:
       "--noise-dof",
       {{facts::nothing, "to be left out, because a check assumes that the noise is known"}});
   verb.has(
-      {{"--with",
-        reads(c.with),
-        "More new points, or holes and distances, to compare with the map",
+      {{"--with", reads(c.with), "More new points, or holes and distances, to compare with the map",
         facts::map,
         "to be left out, because anchors are checked against a single file of new places"},
-       {"--settings",
-        reads(c.settings),
+       {"--settings", reads(c.settings),
         "The controller's settings when the new points were commanded, if they had changed "
         "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file",
-        facts::map,
-        "to be left out, because the anchors' file already contains the settings"},
+        facts::map, "to be left out, because the anchors' file already contains the settings"},
        {"--json", c.json, "Print all numbers as JSON"},
        {"-o,--output", writes(c.output, {Origin::table, Origin::check}), "- is standard output"},
        {"--report", writes(c.report, {Origin::page}), "The answer as a web page (HTML)"}});

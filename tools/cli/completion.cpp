@@ -49,11 +49,8 @@ std::vector<Command> commands_of(CLI::App& app) {
 std::string branches(const std::vector<Command>& commands, const char* verbs, const char* options) {
   std::string text;
   for (const Command& command : commands) {
-    text += fmt::format("    \"{}\") {}=\"{}\" {}=\"{}\" ;;\n",
-                        fmt::join(command.words, " "),
-                        verbs,
-                        fmt::join(names_of(command.parts.verbs), " "),
-                        options,
+    text += fmt::format("    \"{}\") {}=\"{}\" {}=\"{}\" ;;\n", fmt::join(command.words, " "),
+                        verbs, fmt::join(names_of(command.parts.verbs), " "), options,
                         fmt::join(long_names(command.parts.options), " "));
   }
   return text;
@@ -127,16 +124,12 @@ std::string fish(const std::vector<Command>& commands) {
         command.words.empty() ? "__fish_use_subcommand"
                               : fmt::format("__fish_seen_subcommand_from {}", command.words.back());
     for (const CLI::App* verb : command.parts.verbs) {
-      text += fmt::format("complete -c chaintrue -f -n '{}' -a {} -d '{}'\n",
-                          when,
-                          verb->get_name(),
-                          fish_quoted(verb->get_description()));
+      text += fmt::format("complete -c chaintrue -f -n '{}' -a {} -d '{}'\n", when,
+                          verb->get_name(), fish_quoted(verb->get_description()));
     }
     for (const CLI::Option* option : command.parts.options) {
       for (const std::string& name : option->get_lnames()) {
-        text += fmt::format("complete -c chaintrue -n '{}' -l {}{} -d '{}'\n",
-                            when,
-                            name,
+        text += fmt::format("complete -c chaintrue -n '{}' -l {}{} -d '{}'\n", when, name,
                             option->get_items_expected_max() > 0 ? " -r" : "",
                             fish_quoted(option->get_description()));
       }
@@ -157,8 +150,7 @@ std::string item_of(const CLI::Option& option) {
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
   if (names.empty()) names.push_back(option.get_name());
-  return fmt::format(".TP\n\\fB{}\\fR\n{}\n",
-                     troff(fmt::format("{}", fmt::join(names, ", "))),
+  return fmt::format(".TP\n\\fB{}\\fR\n{}\n", troff(fmt::format("{}", fmt::join(names, ", "))),
                      troff(option.get_description()));
 }
 
@@ -168,11 +160,8 @@ std::string manual_of(const Command& command) {
   const std::string title = fmt::format("{}", fmt::join(words, "-"));
   std::string text =
       fmt::format(".TH \"{}\" 1 \"\" \"chaintrue {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n",
-                  troff(title),
-                  CHAINTRUE_VERSION,
-                  troff(title),
-                  troff(command.app->get_description()),
-                  fmt::join(words, " "));
+                  troff(title), CHAINTRUE_VERSION, troff(title),
+                  troff(command.app->get_description()), fmt::join(words, " "));
   if (!command.parts.verbs.empty()) text += ".I verb\n";
   for (const CLI::Option* argument : command.arguments)
     text += fmt::format("[\\fI{}\\fR]\n", troff(argument->get_name()));
@@ -207,25 +196,22 @@ int print_manual(CLI::App& app, const Words& words) {
 void add_completion(Verb app) {
   const auto print = [app](const std::string& name) {
     const std::vector<Command> commands = commands_of(app.app());
-    fmt::print("{}",
-               name == "bash"  ? bash(commands)
-               : name == "zsh" ? zsh(commands)
-                               : fish(commands));
+    fmt::print("{}", name == "bash"  ? bash(commands)
+                     : name == "zsh" ? zsh(commands)
+                                     : fish(commands));
     return kDone;
   };
-  auto [verb, shell] =
-      app.add_verb<std::string>("completion",
-                                "Print what bash, zsh or fish need to complete commands",
-                                R"(Example:
+  auto [verb, shell] = app.add_verb<std::string>(
+      "completion", "Print what bash, zsh or fish need to complete commands",
+      R"(Example:
   build/chaintrue completion bash > chaintrue.bash)",
-                                print);
+      print);
   verb.has({{"shell", required({shell, {"bash", "zsh", "fish"}}), "bash, zsh or fish"}});
 }
 
 void add_man(Verb app) {
   auto [verb, words] =
-      app.add_verb<Words>("man",
-                          "Print a manual page (troff), as man -l - shows it",
+      app.add_verb<Words>("man", "Print a manual page (troff), as man -l - shows it",
                           R"(Example:
   build/chaintrue man gcode verify > chaintrue-gcode-verify.1)",
                           [app](const Words& own) { return print_manual(app.app(), own); });

@@ -80,12 +80,10 @@ void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::stri
                               : points == 0
                                   ? fmt::format("{} distances", distances)
                                   : fmt::format("{} points and {} distances", points, distances);
-  throw Failed(files::name_in_messages(path),
-               "too_many",
+  throw Failed(files::name_in_messages(path), "too_many",
                fmt::format("{} are more than a diagnosis accepts ({}): leave some out, evenly over "
                            "the bed, and keep those measured twice; chaintrue fit accepts them all",
-                           counted,
-                           kMostDiagnosed));
+                           counted, kMostDiagnosed));
 }
 
 /// Readings more accurate than the simulation over a bed.
@@ -96,8 +94,7 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
     found.notes.push_back(
         fmt::format("The reading error that you entered, {} mm, is below the numerical accuracy; "
                     "{} mm was used instead.",
-                    own->noise->length_mm,
-                    kFinestMm));
+                    own->noise->length_mm, kFinestMm));
   }
 }
 
@@ -119,8 +116,7 @@ Diagnosis named(tl::expected<Diagnosis, diagnosis::DiagnosisFailure> result,
 }
 
 /// The accuracy with which the result predicts the grid of --held-out.
-diagnosis::Transfer held_out(const DiagnoseCommand& command,
-                             const MeasuredGrid& measured,
+diagnosis::Transfer held_out(const DiagnoseCommand& command, const MeasuredGrid& measured,
                              const Diagnosis& found) {
   GridInput other = command.input;
   other.grid = command.held_out;
@@ -157,15 +153,12 @@ Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file)
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
-    throw Failed(file.name,
-                 "too_many",
+    throw Failed(file.name, "too_many",
                  fmt::format("{} places are more than a diagnosis accepts ({}): leave some out, "
                              "evenly over the sheet; chaintrue fit accepts them all",
-                             read.belts.points.size(),
-                             kMostPlaces));
+                             read.belts.points.size(), kMostPlaces));
   }
-  return named(diagnosis::diagnose(read.belts,
-                                   diagnosis_options(command),
+  return named(diagnosis::diagnose(read.belts, diagnosis_options(command),
                                    files::indices_without(read.belts.points.size(), without)),
                command);
 }
@@ -181,8 +174,7 @@ Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& fil
 
 /// The grid for a fit on the extended machine: true positions of marks, readings without effects of
 /// the visit. An assumed order is not written.
-std::string corrected_grid_text(const DiagnoseCommand& command,
-                                const Diagnosis& found,
+std::string corrected_grid_text(const DiagnoseCommand& command, const Diagnosis& found,
                                 const grid::Measured& input) {
   const auto ordered = found.visiting_order
                            ? diagnosis::visited_in(input, found.visiting_order->order)
@@ -206,8 +198,7 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
   }
   std::vector<std::string> comments = {
       fmt::format("Made by chaintrue diagnose from {}: calibrated settings, with the causes {}.",
-                  source,
-                  in_here.empty() ? "none" : fmt::format("{}", fmt::join(in_here, "; ")))};
+                  source, in_here.empty() ? "none" : fmt::format("{}", fmt::join(in_here, "; ")))};
   for (const auto& cause : causes_left_out(found))
     comments.push_back(fmt::format("Named but not included here: {}.", cause_title(cause.cause)));
   for (const auto& correction : found.data_corrections) {
@@ -319,38 +310,26 @@ Example:
   add_tape_options(verb, c.tape);
   verb.has(
       {effects_row(c.input),
-       {"--with",
-        reads(c.with),
-        "More grids and holes of the same machine, used together",
-        chains,
+       {"--with", reads(c.with), "More grids and holes of the same machine, used together", chains,
         "to be left out, because belts and drawings are diagnosed with the machine in their "
         "file"},
-       {"-o,--output",
-        writes(c.output, {Origin::diagnosis}),
+       {"-o,--output", writes(c.output, {Origin::diagnosis}),
         "The diagnosis with all its numbers (JSON)"},
        {"--report", writes(c.report, {Origin::page}), "The diagnosis as a web page (HTML)"},
-       {"--extended-machine",
-        writes(c.extended_machine, {Origin::machine}),
-        "The machine with calibrated settings and the causes that were named",
-        chains,
+       {"--extended-machine", writes(c.extended_machine, {Origin::machine}),
+        "The machine with calibrated settings and the causes that were named", chains,
         "to be left out, because belts and drawings are diagnosed with the machine in their "
         "file"},
-       {"--corrected-grid",
-        writes(c.corrected_grid, {Origin::measured}),
+       {"--corrected-grid", writes(c.corrected_grid, {Origin::measured}),
         "The points with that machine, with marks and readings corrected where they were the "
         "cause; input for fit",
-        one_grid,
-        "to be left out, because only a single grid can be corrected"},
-       {"--law",
-        writes(c.law, {Origin::list}),  // edited by hand: replaced with --force alone
+        one_grid, "to be left out, because only a single grid can be corrected"},
+       {"--law", writes(c.law, {Origin::list}),  // edited by hand: replaced with --force alone
         "The most probable law of the unexplained pattern (90 % or more), as a file for --effects",
-        chains,
-        "to be left out, because a declared cause acts on chains"},
+        chains, "to be left out, because a declared cause acts on chains"},
        {"--json", c.json, "Print the diagnosis file on standard output"},
-       {"--held-out",
-        reads(c.held_out),
-        "Another grid of the same machine, to test how well the result predicts it",
-        one_grid,
+       {"--held-out", reads(c.held_out),
+        "Another grid of the same machine, to test how well the result predicts it", one_grid,
         "to be left out, because it compares two grids"},
        {"--assume-order",
         {c.assume_order, files::words_of(files::kVisitingOrders)},
@@ -359,18 +338,14 @@ Example:
         grid,
         "to be left out, because it applies to the points of a grid only"},
        without_row(c.without),
-       {"--accept-class",
-        c.options.accept_class,
+       {"--accept-class", c.options.accept_class,
         "If the points cannot distinguish long links from a long tape, assume the links, "
         "without measuring them",
-        chains,
-        "to be left out, because it applies to chains and the tape for marks only"},
-       {"--no-gain",
-        c.without_gain,
+        chains, "to be left out, because it applies to chains and the tape for marks only"},
+       {"--no-gain", c.without_gain,
         "Do not compute how much naming the causes improves the map, which takes most of "
         "the time",
-        chains,
-        "to be left out for belts and drawings, because the gain applies to a map"},
+        chains, "to be left out for belts and drawings, because the gain applies to a map"},
        {"--seed",
         {c.options.seed, {"", 0.0, 9e15}},
         "Seed of the simulations: same seed, same answer"}});

@@ -26,18 +26,15 @@ std::string_view where_it_goes(const Diagnosis& found) {
 std::string noise_in_words(const Diagnosis& found) {
   std::vector<std::string> stated;
   if (found.stated_noise) {
-    stated.push_back(
-        fmt::format("{:g} mm per chain and {:g} mm per mark (one sigma, {:g} degrees of freedom); ",
-                    found.stated_noise->length_mm,
-                    found.stated_noise->position_mm,
-                    found.stated_noise->dof));
+    stated.push_back(fmt::format(
+        "{:g} mm per chain and {:g} mm per mark (one sigma, {:g} degrees of freedom); ",
+        found.stated_noise->length_mm, found.stated_noise->position_mm, found.stated_noise->dof));
   }
   if (found.stated_tape) {
     stated.push_back(
         fmt::format("{:g} mm per tape reading and {:g} mm per hole on each axis (one sigma, {:g} "
                     "degrees of freedom); ",
-                    found.stated_tape->tape_sigma_mm,
-                    found.stated_tape->hole_sigma_mm,
+                    found.stated_tape->tape_sigma_mm, found.stated_tape->hole_sigma_mm,
                     found.stated_tape->dof));
   }
   if (stated.empty()) return "The error of the readings is unknown; ";
@@ -51,15 +48,11 @@ std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& b
     return fmt::format(
         "{}: read {} ({:.1f} sigmas)",
         is_drawn ? found.drawing->measures.at(bad.index).name : distance_name(found, bad.index),
-        off_in_words(bad.residual_mm),
-        bad.distance);
+        off_in_words(bad.residual_mm), bad.distance);
   }
   return fmt::format(
       "{}: fits only if the tool was {} mm right and {} mm up of its mark ({:.1f} sigmas)",
-      point_name(bad.index),
-      fixed(bad.shift_mm.x(), 2),
-      fixed(bad.shift_mm.y(), 2),
-      bad.distance);
+      point_name(bad.index), fixed(bad.shift_mm.x(), 2), fixed(bad.shift_mm.y(), 2), bad.distance);
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ Section frame_section(const Diagnosis& found) {
   before.caption = kFrameCaption;
   Section section{"The frame, and the residuals of its belts", {std::move(before)}};
   if (found.causes.empty()) return section;
-  Chart after = frame_chart(belts,
-                            found.causes.size() > 1 ? "With the causes" : "With the cause",
+  Chart after = frame_chart(belts, found.causes.size() > 1 ? "With the causes" : "With the cause",
                             &BeltPlacePicture::after_mm);
   after.caption = "The same scale. Strokes in random directions are noise.";
   section.blocks.emplace_back(std::move(after));
@@ -28,10 +27,8 @@ Section frame_section(const Diagnosis& found) {
 }
 
 Section anchors_section(const Diagnosis& found) {
-  Table table{.columns = {text_column("Anchor", 6),
-                          number_column("alone", 12),
-                          number_column("with the causes", 17),
-                          number_column("+-", 8),
+  Table table{.columns = {text_column("Anchor", 6), number_column("alone", 12),
+                          number_column("with the causes", 17), number_column("+-", 8),
                           number_column("in force", 10, 1)},
               .caption = kAnchorsCaption,
               .is_headed = true};
@@ -44,8 +41,7 @@ Section anchors_section(const Diagnosis& found) {
 
 Section belts_improvement_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
-  Table table{.columns = {text_column("mm", 39),
-                          number_column("anchors alone", 13),
+  Table table{.columns = {text_column("mm", 39), number_column("anchors alone", 13),
                           number_column("with the causes", 18)},
               .is_headed = true};
   const auto row = [&table](const char* what, double before, double after) {
@@ -54,8 +50,7 @@ Section belts_improvement_section(const Diagnosis& found) {
   row("error of one belt's reading", belts.spread_before_mm, belts.residual_sigma_mm);
   row("rms over all readings", belts.rms_before_mm, belts.rms_mm);
   if (belts.prediction && belts.prediction_before) {
-    row("lower belts predicted at places left out",
-        belts.prediction_before->rms_mm,
+    row("lower belts predicted at places left out", belts.prediction_before->rms_mm,
         belts.prediction->rms_mm);
   }
   row("the tool, over the measured places", belts.tool.before_mm, belts.tool.after_mm);
@@ -71,8 +66,7 @@ Section belts_improvement_section(const Diagnosis& found) {
 
 Light scale_light(const Diagnosis& found) {
   const bool known = found.belts->scale.has_value();
-  return {known ? Tone::good : Tone::caution,
-          "Scale known?",
+  return {known ? Tone::good : Tone::caution, "Scale known?",
           known ? "yes, from the tape" : "no, not taped"};
 }
 
@@ -94,8 +88,7 @@ Section drawn_settings_section(const Diagnosis& found) {
   for (const DrawnSetting& own : found.drawing->settings) {
     const auto words = diagnosis::parameter_words(own.name);
     table.rows.push_back(report::row_with_flag(
-        {fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma},
-        own.off,
+        {fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma}, own.off,
         "off"));
   }
   return {.title = "Settings of the plotter", .blocks = {std::move(table)}};
@@ -107,16 +100,16 @@ Section drawn_measures_section(const Diagnosis& found) {
                           number_column("explained", 11),
                           {.gap = 2}}};
   for (const DrawnValue& own : found.drawing->measures) {
-    table.rows.push_back(report::row_with_flag(
-        {own.name, own.measured_mm, own.explained_mm}, own.rejected, "left out"));
+    table.rows.push_back(report::row_with_flag({own.name, own.measured_mm, own.explained_mm},
+                                               own.rejected, "left out"));
   }
   return {.title = "What was measured", .blocks = {std::move(table)}};
 }
 
 Light drawn_settings_light(const Diagnosis& found) {
   const auto& settings = found.drawing->settings;
-  const auto off = std::count_if(
-      settings.begin(), settings.end(), [](const DrawnSetting& own) { return own.off; });
+  const auto off = std::count_if(settings.begin(), settings.end(),
+                                 [](const DrawnSetting& own) { return own.off; });
   if (off == 0) return {Tone::good, "Settings right?", "yes"};
   return {Tone::caution, "Settings right?", fmt::format("{} off: type them in", off)};
 }

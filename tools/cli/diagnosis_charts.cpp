@@ -30,10 +30,8 @@ struct Panel {
 };
 
 /// Over the good points, both taken about their means.
-double correlation(const Diagnosis& found,
-                   Eigen::Vector2d PointPicture::*first,
-                   Eigen::Vector2d PointPicture::*second,
-                   int chain) {
+double correlation(const Diagnosis& found, Eigen::Vector2d PointPicture::*first,
+                   Eigen::Vector2d PointPicture::*second, int chain) {
   double n = 0.0, sum_a = 0.0, sum_b = 0.0, sum_aa = 0.0, sum_bb = 0.0, sum_ab = 0.0;
   for (const PointPicture& point : found.points) {
     if (point.bad) continue;
@@ -74,21 +72,17 @@ std::string clipped_in_words(const Diagnosis& found, double full_mm) {
       found.causes.front().rival ? largest(found, &PointPicture::rival_mm) : 0.0;
   if (rival_mm <= kLargestDrawn * full_mm) return {};
   return fmt::format(" The rival's reach {:.2f} mm and are drawn no larger than {:.2f} mm.",
-                     rival_mm,
-                     kLargestDrawn * full_mm);
+                     rival_mm, kLargestDrawn * full_mm);
 }
 
-Chart strip_chart(const Diagnosis& found,
-                  const std::vector<Panel>& panels,
-                  int chain,
+Chart strip_chart(const Diagnosis& found, const std::vector<Panel>& panels, int chain,
                   double full_mm) {
   Chart chart{
       .specification = "residual_strip",
       .title = fmt::format("The {} chain", kChains[chain]),
       .caption = fmt::format("Vermilion: more chain was read than expected; blue: less. All panels "
                              "have the same scale: the largest measured circle is {:.2f} mm.{}",
-                             full_mm,
-                             clipped_in_words(found, full_mm))};
+                             full_mm, clipped_in_words(found, full_mm))};
   DataTable heads{"heads", {"panel", "title", "note"}};
   DataTable points{"points", {"panel", "name", "x_mm", "y_mm", "value_mm", "is_bad"}};
   for (std::size_t k = 0; k < panels.size(); ++k) {
@@ -102,12 +96,8 @@ Chart strip_chart(const Diagnosis& found,
     }
     heads.rows.push_back({static_cast<double>(k), panel.title, note});
     for (const PointPicture& point : found.points) {
-      points.rows.push_back({static_cast<double>(k),
-                             point_name(point.index),
-                             point.mark.x_mm,
-                             point.mark.y_mm,
-                             (point.*panel.residual)[chain],
-                             point.bad});
+      points.rows.push_back({static_cast<double>(k), point_name(point.index), point.mark.x_mm,
+                             point.mark.y_mm, (point.*panel.residual)[chain], point.bad});
     }
   }
   chart.data = {std::move(heads), std::move(points)};
@@ -150,8 +140,7 @@ namespace {
 
 std::vector<ChartRow> arrow_charts(const Diagnosis& found) {
   return report::arrow_rows(
-      bed_of(found),
-      arrows_of(found, &PointPicture::before_mm),
+      bed_of(found), arrows_of(found, &PointPicture::before_mm),
       found.causes.empty() ? std::vector<Arrow>{} : arrows_of(found, &PointPicture::after_mm),
       {"Before: the machine calibrated",
        "Arrows from the intended to the actual position of the tool. Grey: one sigma of the noise "
@@ -203,10 +192,7 @@ Chart next_points_chart(const Diagnosis& found) {
   std::vector<Arrow> marks = arrows_of(found, &PointPicture::before_mm);
   for (const FollowUpPlace& place : follow_up_places(found)) {
     marks.push_back({.x_mm = place.mark.x_mm, .y_mm = place.mark.y_mm});
-    next.rows.push_back({place.numbers,
-                         place.what,
-                         place.mark.x_mm,
-                         place.mark.y_mm,
+    next.rows.push_back({place.numbers, place.what, place.mark.x_mm, place.mark.y_mm,
                          percent(place.raises_probability_to)});
   }
   chart.data = {std::move(measured), std::move(next)};

@@ -94,8 +94,7 @@ inline std::string coordinate_title(const std::string& name) {
 }
 
 /// All strokes of the same findings have one scale.
-Chart frame_chart(const diagnosis::BeltsFindings& found,
-                  std::string title,
+Chart frame_chart(const diagnosis::BeltsFindings& found, std::string title,
                   model::PerBelt<double> diagnosis::BeltPlacePicture::*which);
 
 }  // namespace chaintrue::cli

@@ -40,13 +40,11 @@ bool is_something_left(const Diagnosis& found) {
 
 Light data_light(const Diagnosis& found) {
   if (found.verdict == Verdict::named_set) {
-    return {Tone::caution,
-            "Enough data?",
+    return {Tone::caution, "Enough data?",
             fmt::format("not to distinguish {} causes", found.causes.size())};
   }
   if (!found.not_testable.empty()) {
-    return {Tone::caution,
-            "Enough data?",
+    return {Tone::caution, "Enough data?",
             found.not_testable.size() == 1
                 ? "one cause could not be tested"
                 : fmt::format("{} causes could not be tested", found.not_testable.size())};
@@ -58,10 +56,10 @@ void put_the_verdict(const Diagnosis& found, Document& document) {
   const VerdictLights& lights = kVerdicts[static_cast<std::size_t>(found.verdict)];
   const bool left = is_something_left(found);
   // The error comes first, the same number as a fit begins with.
-  document.verdict = {found.tool_today ? fmt::format("Your machine misses by about {} mm. {}",
-                                                     about_mm(found.tool_today->rms_mm),
-                                                     found.sentence)
-                                       : found.sentence};
+  document.verdict = {found.tool_today
+                          ? fmt::format("Your machine misses by about {} mm. {}",
+                                        about_mm(found.tool_today->rms_mm), found.sentence)
+                          : found.sentence};
   // The bar's colour shows the machine's state, not the name's certainty: a worn chain is not good
   // news.
   const bool errs = left || !found.causes.empty() || !found.outliers.empty() ||
@@ -69,8 +67,7 @@ void put_the_verdict(const Diagnosis& found, Document& document) {
   document.tone = errs ? std::max(lights.tone, Tone::caution) : lights.tone;
   document.lights = {
       {lights.found_tone, "Found?", std::string(lights.found)},
-      {left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone,
-       "Named?",
+      {left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone, "Named?",
        fmt::format("{}{}", lights.named, left && !found.causes.empty() ? "; not all of it" : "")},
       data_light(found),
       found.belts     ? scale_light(found)

@@ -50,8 +50,7 @@ std::vector<ImprovementRow> transfer_rows(const Diagnosis& diagnosis) {
   return rows;
 }
 
-Table error_table(const std::vector<ImprovementRow>& rows,
-                  double floor_mm,
+Table error_table(const std::vector<ImprovementRow>& rows, double floor_mm,
                   std::string_view readings) {
   Table table{
       .columns = {{.page_heading = "model", .width = 32},
@@ -63,10 +62,9 @@ Table error_table(const std::vector<ImprovementRow>& rows,
                    .width = 9}}};
   for (const ImprovementRow& row : rows) {
     const diagnosis::HeldOut& error = *row.held_out;
-    table.rows.push_back({{row.what,
-                           error.rms_mm,
-                           fmt::format("{:.2f} to {:.2f}", error.low_mm, error.high_mm),
-                           error.percentile_95_mm}});
+    table.rows.push_back(
+        {{row.what, error.rms_mm, fmt::format("{:.2f} to {:.2f}", error.low_mm, error.high_mm),
+          error.percentile_95_mm}});
   }
   table.rows.push_back({{"noise of the readings", floor_mm}});
   return table;
@@ -86,11 +84,8 @@ Chart improvement_chart(const Diagnosis& found) {
     return row == &found.improvement->surface_only ? report::kNeutralColor : report::kBeforeColor;
   };
   for (const ImprovementRow& row : improvement_rows(found)) {
-    table.rows.push_back({std::string(row.what),
-                          row.held_out->rms_mm,
-                          row.held_out->low_mm,
-                          row.held_out->high_mm,
-                          row.held_out->percentile_95_mm,
+    table.rows.push_back({std::string(row.what), row.held_out->rms_mm, row.held_out->low_mm,
+                          row.held_out->high_mm, row.held_out->percentile_95_mm,
                           std::string(color_of(row.held_out))});
   }
   chart.data.push_back(std::move(table));
@@ -109,8 +104,7 @@ Light corrected_light(const Diagnosis& found) {
   const Tone tone = after_mm <= kNearTheNoise * floor_mm ? Tone::good
                     : after_mm <= kFarFromIt * floor_mm  ? Tone::caution
                                                          : Tone::bad;
-  return {tone,
-          "Corrected?",
+  return {tone, "Corrected?",
           found.causes.empty()
               ? fmt::format("{:.2f} mm, noise {:.2f}", after_mm, floor_mm)
               : fmt::format("{:.2f} to {:.2f} mm, noise {:.2f}", before_mm, after_mm, floor_mm)};
@@ -133,8 +127,7 @@ std::vector<Figure> figures_of_improvement(const Diagnosis& found) {
   if (!found.causes.empty()) {
     figures.push_back({fmt::format("{:.2f} mm", improvement.extended.rms_mm),
                        fmt::format("with the cause (90 %: {:.2f} to {:.2f})",
-                                   improvement.extended.low_mm,
-                                   improvement.extended.high_mm)});
+                                   improvement.extended.low_mm, improvement.extended.high_mm)});
   }
   figures.push_back(
       {fmt::format("{:.2f} mm", improvement.noise_floor_mm), "noise of the readings"});
@@ -147,21 +140,18 @@ Section improvement_section(const Diagnosis& found) {
   return {
       of_distances ? "Error of distances left out, mm" : "Error of the tool at points left out, mm",
       {improvement_chart(found),
-       error_table(improvement_rows(found),
-                   improvement.noise_floor_mm,
+       error_table(improvement_rows(found), improvement.noise_floor_mm,
                    of_distances ? "distances" : "points"),
-       Paragraph{fmt::format("{}; the same cause was named {} of {} times.",
-                             improvement.scheme,
-                             improvement.folds_agree,
-                             improvement.folds)}}};
+       Paragraph{fmt::format("{}; the same cause was named {} of {} times.", improvement.scheme,
+                             improvement.folds_agree, improvement.folds)}}};
 }
 
 Section transfer_section(const Diagnosis& found) {
   const auto& other = *found.transferred;
   Table table = error_table(transfer_rows(found), other.noise_floor_mm, "points");
   table.caption = "Not fitted to these points, except for the placement of a hand-laid sheet.";
-  return {fmt::format(
-              "Error of the tool on \"{}\", {} points not used here, mm", other.to, other.points),
+  return {fmt::format("Error of the tool on \"{}\", {} points not used here, mm", other.to,
+                      other.points),
           {std::move(table)}};
 }
 

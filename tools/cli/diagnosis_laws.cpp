@@ -49,9 +49,7 @@ std::string axis_title(const Law& law) {
                                                 : "visits";
   const std::string variable = variable_in_words(law);
   if (is_folded(law)) {
-    return fmt::format("{}, {} past a full period of {:.4g}",
-                       variable,
-                       words,
+    return fmt::format("{}, {} past a full period of {:.4g}", variable, words,
                        degrees_of(law, law.parameters[1].value));
   }
   return unit == "visit" ? variable : fmt::format("{}, {}", variable, words);
@@ -81,12 +79,11 @@ std::vector<std::pair<double, double>> curve_of(const Law& law) {
 Chart law_chart(const Law& law, bool is_likeliest) {
   ResidualScatter chart{
       .title = is_likeliest ? "The most probable" : "Its best rival",
-      .caption = fmt::format("{}: {}. {}",
-                             capitalised(in_words(law)),
-                             diagnosis::percent(law.probability),
-                             is_likeliest ? "Dots are the readings minus all other known effects; "
-                                            "the right curve passes through them."
-                                          : "The same readings, under this law."),
+      .caption =
+          fmt::format("{}: {}. {}", capitalised(in_words(law)), diagnosis::percent(law.probability),
+                      is_likeliest ? "Dots are the readings minus all other known effects; "
+                                     "the right curve passes through them."
+                                   : "The same readings, under this law."),
       .x_title = axis_title(law),
       .first_label = "readings and curve",
       .first_color = is_likeliest ? report::kAfterColor : report::kNeutralColor};
@@ -115,9 +112,7 @@ std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
     if (own == nullptr || !own->left_x_mm || !own->left_y_mm) continue;
     after.push_back(arrow_of(point, {*own->left_x_mm, *own->left_y_mm}));
   }
-  return report::arrow_rows(bed_of(found),
-                            before,
-                            after,
+  return report::arrow_rows(bed_of(found), before, after,
                             {found.causes.empty() ? "Without it: the machine calibrated"
                                                   : "Without it: the residual with the causes",
                              "Arrows from the intended to the actual position of the tool. Grey: "
@@ -131,19 +126,15 @@ std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
 std::vector<Item> details_of(const Law& law, const Diagnosis& found) {
   std::vector<Item> details;
   if (law.probability < diagnosis::kLawLikely) return details;
-  details.push_back({fmt::format("on average it {}: {} of the residual of the {}",
-                                 average_in_words(law, found.observations),
-                                 diagnosis::percent(law.share),
-                                 found.belts ? "anchors" : "settings")});
+  details.push_back({fmt::format(
+      "on average it {}: {} of the residual of the {}", average_in_words(law, found.observations),
+      diagnosis::percent(law.share), found.belts ? "anchors" : "settings")});
   if (law.held_out) {
     const auto& [inside, outside] = *law.held_out;
     details.push_back(
         {fmt::format("every fourth place left out: predicted to {:.2f} mm with the law, {:.2f} "
                      "without; a quarter of the bed left out: {:.2f} with it, {:.2f} without",
-                     inside.with_mm,
-                     inside.without_mm,
-                     outside.with_mm,
-                     outside.without_mm)});
+                     inside.with_mm, inside.without_mm, outside.with_mm, outside.without_mm)});
   }
   if (law.shape_probability < diagnosis::kLawClaimed) {
     details.push_back(
@@ -190,8 +181,7 @@ Section declared_section(const Diagnosis& found) {
                         : says == Says::open ? "left open: measure more points"
                                              : "not testable with these readings";
     table.rows.push_back(
-        {{cause_title(cause),
-          words,
+        {{cause_title(cause), words,
           says == Says::not_testable ? Cell{} : Cell(diagnosis::percent(probability))}});
   }
   return {"Declared effects", {std::move(table)}};

@@ -37,8 +37,7 @@ Places places_of(const Diagnosis& found) {
   const bool ordered = has_order(found);
   for (const auto& point : found.points) {
     if (ordered && !point.order) continue;
-    add(point_name(point.index),
-        point.mark,
+    add(point_name(point.index), point.mark,
         point.order.value_or(static_cast<int>(places.visits.size())));
   }
   if (!found.points.empty()) return places;
@@ -58,8 +57,7 @@ Machine machine_without(const Diagnosis& found, const AppliedEffect& cause) {
 
 /// Shift of the tool at each place; empty if a place is out of reach, with or without the cause, or
 /// if a file's numbers are impossible: two visits with one number, a size out of range.
-std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
-                                                      const Cause& cause,
+std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found, const Cause& cause,
                                                       const std::vector<model::Visit>& visits) {
   try {
     const AppliedEffect applied = diagnosis::applied(cause);
@@ -72,9 +70,7 @@ std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
   }
 }
 
-Chart chart_of(const Diagnosis& found,
-               const Cause& cause,
-               const Places& places,
+Chart chart_of(const Diagnosis& found, const Cause& cause, const Places& places,
                const std::vector<Eigen::Vector2d>& shifts) {
   std::vector<Arrow> arrows = places.arrows;
   double largest_mm = 0.0;
@@ -84,10 +80,10 @@ Chart chart_of(const Diagnosis& found,
     largest_mm = std::max(largest_mm, shifts[i].norm());
   }
   const report::Outline sheet = bed_of(found);
-  Chart chart = report::arrows_chart(
-      sheet, arrows, report::magnification_of(sheet, arrows), report::kBeforeColor);
-  chart.title = fmt::format(
-      "{}: {}", cause_title(cause.cause), sizes_in_words(cause.cause, cause.parameters));
+  Chart chart = report::arrows_chart(sheet, arrows, report::magnification_of(sheet, arrows),
+                                     report::kBeforeColor);
+  chart.title = fmt::format("{}: {}", cause_title(cause.cause),
+                            sizes_in_words(cause.cause, cause.parameters));
   chart.caption = fmt::format(
       "Error of the tool from this cause alone: {:.1f} mm at most. Computed for the size found, "
       "with unchanged settings.",

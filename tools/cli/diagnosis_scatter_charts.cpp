@@ -67,17 +67,13 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   ResidualScatter chart{
       .title = scatter.title, .caption = scatter.caption, .x_title = scatter.x_title};
   const auto add = [&](const PointPicture& point, double residual_mm, bool is_first) {
-    chart.dots.push_back({point_name(point.index),
-                          scatter.x(point, scatter.chain),
-                          residual_mm,
-                          is_first,
-                          point.bad});
+    chart.dots.push_back({point_name(point.index), scatter.x(point, scatter.chain), residual_mm,
+                          is_first, point.bad});
   };
   for (const PointPicture& point : found.points) {
     const int direction =
         scatter.chain == Side::left ? point.direction_left : point.direction_right;
-    add(point,
-        (point.*scatter.first)[row_of(scatter.chain)],
+    add(point, (point.*scatter.first)[row_of(scatter.chain)],
         !scatter.by_direction || direction > 0);
     if (has_after) add(point, point.chain_after_mm[row_of(scatter.chain)], false);
     if (point.bad) continue;
@@ -163,8 +159,7 @@ ChartRow order_charts(const Diagnosis& found) {
   for (const Side chain : model::kSides) {
     row.charts.push_back(scatter_chart(
         found,
-        {.title = fmt::format("The {} chain, visit by visit{}",
-                              chain_name(chain),
+        {.title = fmt::format("The {} chain, visit by visit{}", chain_name(chain),
                               shows_rest ? ": what is left" : ""),
          .caption = chain == Side::left ? "Two layers of colour mean friction or play, a slope "
                                           "drift, a step a skipped link."

@@ -24,8 +24,7 @@ using report::number_column;
 constexpr double kWorthALine = 0.001;
 
 std::string what_words(const BudgetLine& line) {
-  constexpr std::string_view kWords[] = {"settings, and position of the sheet",
-                                         "",
+  constexpr std::string_view kWords[] = {"settings, and position of the sheet", "",
                                          "a pattern that no listed cause explains",
                                          "remaining in these readings"};  // by What
   if (line.what == BudgetLine::What::cause) return cause_title(*line.cause);
@@ -33,8 +32,8 @@ std::string what_words(const BudgetLine& line) {
 }
 
 std::string_view changes_words(const BudgetLine& line) {
-  constexpr std::string_view kWords[] = {
-      "", "the place", "the order of the visits", "the direction of the move"};  // by ChangesWith
+  constexpr std::string_view kWords[] = {"", "the place", "the order of the visits",
+                                         "the direction of the move"};  // by ChangesWith
   return kWords[static_cast<std::size_t>(line.changes_with)];
 }
 
@@ -47,9 +46,7 @@ std::string budget_words(const Diagnosis& found) {
   return fmt::format(
       "{}The parts are computed at these {} only: there the {} {:.2f} mm rms, uncorrected. The "
       "second number is the error without this part.{}",
-      today,
-      name(found.observations),
-      of_distances ? "distances erred by" : "tool erred by",
+      today, name(found.observations), of_distances ? "distances erred by" : "tool erred by",
       found.budget->uncalibrated_mm,
       of_distances ? "" : " A part of 100 mm: its error in the worst corner.");
 }
@@ -71,11 +68,8 @@ Section budget_section(const Diagnosis& found) {
   for (const BudgetLine& line : found.budget->lines) {
     // The common part of two is not a separate part, and may be negative.
     if (line.what == BudgetLine::What::inseparable) continue;
-    table.rows.push_back({{what_words(line),
-                           std::sqrt(line.mean_square_mm2),
-                           line.without_mm,
-                           line.part_mm,
-                           changes_words(line)}});
+    table.rows.push_back({{what_words(line), std::sqrt(line.mean_square_mm2), line.without_mm,
+                           line.part_mm, changes_words(line)}});
   }
   return {"What the error is made of", {std::move(table), Paragraph{budget_words(found)}}};
 }
@@ -84,19 +78,16 @@ Section causes_section(const Diagnosis& found) {
   List list;
   for (const Cause& cause : found.causes) {
     Item& item = list.items.emplace_back(
-        Item{fmt::format("{}: {}  (probability {}{})",
-                         cause_title(cause.cause),
-                         sizes_in_words(cause.cause, cause.parameters),
-                         percent(cause.probability),
+        Item{fmt::format("{}: {}  (probability {}{})", cause_title(cause.cause),
+                         sizes_in_words(cause.cause, cause.parameters), percent(cause.probability),
                          cause.order_assumed ? ", order of visits assumed" : "")});
     item.items = {{std::string(cause.cause.effect->cause)},
                   {fmt::format("remedy: {}", cause.cause.effect->remedy)}};
     for (const auto& same : cause.same_as) {
-      item.items.push_back({fmt::format("no {} can distinguish it from {}: {}",
-                                        name(found.observations),
-                                        cause_title(same.cause),
-                                        sizes_in_words(same.cause, same.parameters)),
-                            {{fmt::format("remedy: {}", same.cause.effect->remedy)}}});
+      item.items.push_back(
+          {fmt::format("no {} can distinguish it from {}: {}", name(found.observations),
+                       cause_title(same.cause), sizes_in_words(same.cause, same.parameters)),
+           {{fmt::format("remedy: {}", same.cause.effect->remedy)}}});
     }
   }
   Section section{found.verdict == Verdict::named_set ? "One of these causes"
@@ -207,14 +198,11 @@ Table removals_table(const Diagnosis& found) {
               {},
               fmt::format("With all {} its probability is {}. Shown: those that change the "
                           "verdict, and the {} other most influential ones.",
-                          name(found.observations),
-                          percent(found.stability->probability),
-                          kShown)};
+                          name(found.observations), percent(found.stability->probability), kShown)};
   for (const Removal* removal : order) {
     constexpr double kMost = 6.9;  // a thousand
     const double factor = std::exp(removal->support);
-    table.rows.push_back({{left_out_name(found, *removal),
-                           fmt::format("{}", removal->points),
+    table.rows.push_back({{left_out_name(found, *removal), fmt::format("{}", removal->points),
                            percent(removal->probability),
                            removal->support > kMost ? std::string("above 1000")
                                                     : fixed(factor, factor < 10.0 ? 1 : 0),

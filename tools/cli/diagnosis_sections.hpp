@@ -14,8 +14,7 @@ namespace chaintrue::cli {
 
 /// `source` is the input file's name, for the page's last line. Pictures are made if `detail` is
 /// page.
-Document diagnosis_document(const Diagnosis& diagnosis,
-                            std::string_view source,
+Document diagnosis_document(const Diagnosis& diagnosis, std::string_view source,
                             Detail detail = Detail::page);
 
 /// Every section is made from the diagnosis alone.

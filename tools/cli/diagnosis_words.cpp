@@ -32,13 +32,9 @@ struct ReadingUnit {
   double count;
   std::string_view unit;
 };
-constexpr ReadingUnit kReadings[] = {{1.0, "mm"},
-                                     {1.0, "kg"},
-                                     {100.0, "mm"},
-                                     {1.0, "mm"},
-                                     {1.0, "mm"},
-                                     {1.0, "kg"},
-                                     {1.0, "mm per metre"}};  // by ReadingOf
+constexpr ReadingUnit kReadings[] = {
+    {1.0, "mm"}, {1.0, "kg"}, {100.0, "mm"},        {1.0, "mm"},
+    {1.0, "mm"}, {1.0, "kg"}, {1.0, "mm per metre"}};  // by ReadingOf
 
 std::string spaced(std::string_view id) {
   std::string text(id);
@@ -121,8 +117,8 @@ bool is_of_distances(const Diagnosis& found) {
 }
 
 std::string_view files_in_words(const Diagnosis& found) {
-  constexpr std::string_view kFiles[] = {
-      "GRID", "HOLES", "GRID --with HOLES", "BELTS", "DRAWING"};  // by Observations
+  constexpr std::string_view kFiles[] = {"GRID", "HOLES", "GRID --with HOLES", "BELTS",
+                                         "DRAWING"};  // by Observations
   return kFiles[static_cast<std::size_t>(found.observations)];
 }
 
@@ -174,12 +170,11 @@ std::string left_over_sentence(const diagnosis::LeftOver& left_over) {
   std::string text = fmt::format(
       "The residual exceeds noise: it is {:.1f} times the noise, and noise alone gives as much in "
       "{} of cases.",
-      left_over.signal_to_noise,
-      share_percent(left_over.p_value));
+      left_over.signal_to_noise, share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
-    text += fmt::format(" It follows {} best ({} of its mean square): look there.",
-                        diagnosis::coordinate_words(left_over.follows),
-                        share_percent(left_over.share));
+    text +=
+        fmt::format(" It follows {} best ({} of its mean square): look there.",
+                    diagnosis::coordinate_words(left_over.follows), share_percent(left_over.share));
   }
   return text;
 }
@@ -196,10 +191,9 @@ std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis) {
   std::vector<std::string> sentences;
   const auto& list = diagnosis.next_measurements;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const bool again = std::any_of(
-        list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& earlier) {
-          return same_place(earlier, list[i]);
-        });
+    const bool again =
+        std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i),
+                    [&](const auto& earlier) { return same_place(earlier, list[i]); });
     sentences.push_back(follow_up_in_words(list[i], again, diagnosis.belts.has_value()));
   }
   return sentences;
@@ -226,11 +220,9 @@ std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis) {
 std::string bad_belt_in_words(const diagnosis::Outlier& bad) {
   if (!bad.belt)
     return fmt::format("point {}: more than one of its belts disagrees", bad.index + 1);
-  std::string text = fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)",
-                                 model::words(*bad.belt),
-                                 bad.index + 1,
-                                 off_in_words(bad.residual_mm),
-                                 bad.distance);
+  std::string text =
+      fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)", model::words(*bad.belt),
+                  bad.index + 1, off_in_words(bad.residual_mm), bad.distance);
   if (bad.or_belt) {
     text += fmt::format("; or the {} one, which looks the same at this place",
                         model::words(*bad.or_belt));

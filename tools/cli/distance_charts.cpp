@@ -75,22 +75,10 @@ class Panels {
     holes_.rows.push_back({number_, name, at.x_mm, at.y_mm});
     marks_.push_back({.x_mm = at.x_mm, .y_mm = at.y_mm});
   }
-  void line(const Ends& ends,
-            const std::string& name,
-            const std::string& text,
-            const std::string& color,
-            double width_px,
-            bool is_bad) {
-    lines_.rows.push_back({number_,
-                           name,
-                           ends.from.x_mm,
-                           ends.from.y_mm,
-                           ends.to.x_mm,
-                           ends.to.y_mm,
-                           text,
-                           color,
-                           width_px,
-                           is_bad});
+  void line(const Ends& ends, const std::string& name, const std::string& text,
+            const std::string& color, double width_px, bool is_bad) {
+    lines_.rows.push_back({number_, name, ends.from.x_mm, ends.from.y_mm, ends.to.x_mm,
+                           ends.to.y_mm, text, color, width_px, is_bad});
   }
   Chart finish(Chart chart) {
     chart.specification = "hole_distances";
@@ -113,8 +101,7 @@ class Panels {
   DataTable holes_{"holes", {"panel", "name", "x_mm", "y_mm"}};
 };
 
-Chart residual_panels(const Diagnosis& found,
-                      const std::vector<DistancePanel>& panels,
+Chart residual_panels(const Diagnosis& found, const std::vector<DistancePanel>& panels,
                       std::string title) {
   double full_mm = 0.0, noise_mm = 0.0;
   for (const DistancePanel& panel : panels)
@@ -127,12 +114,9 @@ Chart residual_panels(const Diagnosis& found,
       const double mm = distance.*panel.residual;
       noise_mm = std::max(noise_mm, distance.noise_sigma_mm);
       const double share = std::min(1.0, std::abs(mm) / std::max(full_mm, 1e-9));
-      drawn.line(ends_of(found, distance),
-                 words_of_ends(distance),
-                 fixed(mm, 2) + " mm",
+      drawn.line(ends_of(found, distance), words_of_ends(distance), fixed(mm, 2) + " mm",
                  mm < 0.0 ? report::kAfterColor : report::kBeforeColor,
-                 std::max(kThinPx, kWidestPx * share),
-                 distance.bad);
+                 std::max(kThinPx, kWidestPx * share), distance.bad);
     }
   }
   return drawn.finish(
@@ -140,13 +124,11 @@ Chart residual_panels(const Diagnosis& found,
        .caption = fmt::format(
            "Vermilion: more was read than predicted; blue: less. The widest lines are off by "
            "{:.2f} mm; one sigma of the noise is up to {:.2f} mm. Dashed: left out.",
-           full_mm,
-           noise_mm)});
+           full_mm, noise_mm)});
 }
 
 /// Dots of one kind against something of the distance. \param chart its titles
-Chart scatter_chart(const Diagnosis& found,
-                    ResidualScatter chart,
+Chart scatter_chart(const Diagnosis& found, ResidualScatter chart,
                     double (*x_of)(const DistancePicture&, const Ends&)) {
   const bool has_after = !found.causes.empty();
   chart.least_span_mm = 0.5;
@@ -189,8 +171,7 @@ ChartRow distance_scatter_charts(const Diagnosis& found) {
                 "A slope means a scale error: the tape, or both chains, are too long or short.",
                 "distance, mm"},
                [](const DistancePicture& d, const Ends&) { return d.read_mm; }),
-           scatter_chart(found,
-                         {"Against the tape's direction", "", "degrees from the horizontal"},
+           scatter_chart(found, {"Against the tape's direction", "", "degrees from the horizontal"},
                          [](const DistancePicture&, const Ends& ends) {
                            return std::atan2(std::abs(ends.to.y_mm - ends.from.y_mm),
                                              std::abs(ends.to.x_mm - ends.from.x_mm)) *
@@ -202,24 +183,16 @@ Chart next_distances_chart(const Diagnosis& found) {
   Panels drawn(found);
   drawn.begin("Next, on the bed", "");
   for (const DistancePicture& distance : found.distances)
-    drawn.line(ends_of(found, distance),
-               words_of_ends(distance),
-               "measured",
-               report::kNeutralColor,
-               kThinPx,
-               false);
+    drawn.line(ends_of(found, distance), words_of_ends(distance), "measured", report::kNeutralColor,
+               kThinPx, false);
   for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
     const NextMeasurement& next = found.next_measurements[i];
     const std::string number = fmt::format("{}.", i + 1);
     const MarkPoint from = next.mark ? *next.mark : place_of(found, next.from, {});
     if (next.mark) drawn.hole(number, from);
     for (const std::string& to : next.to)
-      drawn.line({from, place_of(found, to, from)},
-                 fmt::format("{} {}", number, next.words),
-                 "to be measured",
-                 report::kAfterColor,
-                 3.0,
-                 false);
+      drawn.line({from, place_of(found, to, from)}, fmt::format("{} {}", number, next.words),
+                 "to be measured", report::kAfterColor, 3.0, false);
   }
   return drawn.finish({.title = "What to measure",
                        .caption = "Blue: to be measured; holes to be cut, numbered as in the "

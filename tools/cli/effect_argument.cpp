@@ -37,9 +37,7 @@ std::optional<AppliedEffect> parse_form(const std::string& argument, OptionProbl
     const std::string key(take_until(value, '='));
     const auto number = files::number_of(value);
     if (!number) {
-      problems.add("--effect",
-                   argument,
-                   fmt::format("a number after {}=, as in {}", key, kForm),
+      problems.add("--effect", argument, fmt::format("a number after {}=, as in {}", key, kForm),
                    ProblemKind::not_a_number);
       return std::nullopt;
     }
@@ -61,8 +59,7 @@ std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProb
   return effects;
 }
 
-std::vector<AppliedEffect> parse_effects(const Words& arguments,
-                                         const Machine& machine,
+std::vector<AppliedEffect> parse_effects(const Words& arguments, const Machine& machine,
                                          OptionProblems& problems) {
   std::vector<AppliedEffect> effects;
   Machine with = machine;
@@ -86,8 +83,7 @@ std::vector<AppliedEffect> parse_effects(const Words& arguments,
       problems.add("--effect",
                    problem.value.empty() ? *origin[index]
                                          : fmt::format("{} in {}", problem.value, *origin[index]),
-                   problem.expected + what,
-                   ProblemKind::impossible);
+                   problem.expected + what, ProblemKind::impossible);
     }
   }
   return effects;

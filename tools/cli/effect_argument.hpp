@@ -20,8 +20,7 @@ std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProb
 
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` in addition to
 /// its own.
-std::vector<AppliedEffect> parse_effects(const Words& arguments,
-                                         const Machine& machine,
+std::vector<AppliedEffect> parse_effects(const Words& arguments, const Machine& machine,
                                          OptionProblems& problems);
 
 struct NamedNumber {

@@ -39,18 +39,11 @@ void add_arrow(Svg& svg, double x, double y, double dx, double dy, std::string_v
   constexpr double kShortest = 1.0;
   if (length < kShortest) return;
   const double head = std::min(6.0, 0.5 * length) / length;
-  svg.path(fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}",
-                       x,
-                       y,
-                       x + dx,
-                       y + dy,
-                       x + dx - head * (dx + 0.5 * dy),
-                       y + dy - head * (dy - 0.5 * dx),
-                       x + dx,
-                       y + dy,
-                       x + dx - head * (dx - 0.5 * dy),
-                       y + dy - head * (dy + 0.5 * dx)),
-           look);
+  svg.path(
+      fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}", x, y,
+                  x + dx, y + dy, x + dx - head * (dx + 0.5 * dy), y + dy - head * (dy - 0.5 * dx),
+                  x + dx, y + dy, x + dx - head * (dx - 0.5 * dy), y + dy - head * (dy + 0.5 * dx)),
+      look);
 }
 
 void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const Bed& bed) {
@@ -60,20 +53,14 @@ void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const 
   const double spacing = view.scale() * bed.width_mm / (picture.columns - 1);
   const double by = exaggeration(largest, 0.6 * spacing);
   const double top = view.y(0.5 * bed.height_mm);
-  svg.text(
-      kMargin,
-      top - 10.0,
-      fmt::format(
-          "The bed: 1 mm at the tool drawn as {} units; largest {} mm", by, short_number(largest)));
+  svg.text(kMargin, top - 10.0,
+           fmt::format("The bed: 1 mm at the tool drawn as {} units; largest {} mm", by,
+                       short_number(largest)));
   svg.rectangle(kMargin, top, view.scale() * bed.width_mm, view.high(), kFrame);
   for (const ShiftedMark& mark : picture.marks) {
     const auto add = [&](const Eigen::Vector2d& shift_mm, std::string_view colour) {
-      add_arrow(svg,
-                view.x(mark.mark.x_mm),
-                view.y(mark.mark.y_mm),
-                by * shift_mm.x(),
-                -by * shift_mm.y(),
-                colour);
+      add_arrow(svg, view.x(mark.mark.x_mm), view.y(mark.mark.y_mm), by * shift_mm.x(),
+                -by * shift_mm.y(), colour);
     };
     add(mark.as_stated_mm, report::kBeforeColor);
     add(mark.calibrated_mm, report::kAfterColor);
@@ -90,17 +77,13 @@ void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) 
   std::string outline;
   for (std::size_t i = 0; i < square.corner_shift_mm.size(); ++i) {
     const Eigen::Vector2d& shift = square.corner_shift_mm[i];
-    outline += fmt::format("{}{:.2f} {:.2f}",
-                           i == 0 ? "M" : "L",
+    outline += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L",
                            left + half * (1.0 + kCorners[i][0]) + by * shift.x(),
                            top + half * (1.0 - kCorners[i][1]) - by * shift.y());
   }
-  svg.text(left,
-           top - 10.0,
-           fmt::format("{:.0f} mm square at ({:.0f}, {:.0f}) mm, errors times {}",
-                       square.size_mm,
-                       square.centre.x_mm,
-                       square.centre.y_mm,
+  svg.text(left, top - 10.0,
+           fmt::format("{:.0f} mm square at ({:.0f}, {:.0f}) mm, errors times {}", square.size_mm,
+                       square.centre.x_mm, square.centre.y_mm,
                        short_number(by * square.size_mm / kSquareSize)));
   svg.rectangle(left, top, kSquareSize, kSquareSize, kFrame);
   svg.path(outline + "Z", stroke_of(report::kBeforeColor));
@@ -119,14 +102,13 @@ std::string draw_effect(const Machine& machine, const EffectPicture& picture) {
   Svg svg(kWidth, squares_top + kSquareSize + 3.0 * kCaption, "font-size=\"14\"", title);
   svg.fill();
   svg.text(kMargin, 22.0, title);
-  svg.text(kMargin,
-           42.0,
+  svg.text(kMargin, 42.0,
            "The tool's error: with the machine file as it is (orange), and after calibrating "
            "motors and zeros (blue)");
   add_bed(svg, view, picture, bed);
   for (std::size_t i = 0; i < picture.squares.size(); ++i)
-    add_square(
-        svg, picture.squares[i], 90.0 + grid::as_double(i) * (kSquareSize + 180.0), squares_top);
+    add_square(svg, picture.squares[i], 90.0 + grid::as_double(i) * (kSquareSize + 180.0),
+               squares_top);
   return svg.finished();
 }
 

@@ -28,9 +28,7 @@ std::string draw_square(const model::CutSquare& square, const SquareTask& task);
 /// chaintrue effects --atlas: writes a page with the drawings of each cause, for two chains, four
 /// belts or a V-plotter; only for one cause if `cause` is not empty. `declared` are files of the
 /// owner's effects, for two chains only. \throws InputError with every problem.
-int write_atlas(const std::string& machine,
-                const std::string& cause,
-                const std::vector<std::string>& declared,
-                const std::string& output);
+int write_atlas(const std::string& machine, const std::string& cause,
+                const std::vector<std::string>& declared, const std::string& output);
 
 }  // namespace chaintrue::cli

@@ -87,32 +87,20 @@ void list_catalogue(const std::vector<const Effect*>& effects) {
 }
 
 void describe(const Effect& effect) {
-  fmt::print("{} ({}, {})\n  cause         {}\n  shows as      {}\n  equation      {}\n",
-             effect.id,
-             name(effect.station),
-             sides_of(effect),
-             effect.cause,
-             effect.signature,
+  fmt::print("{} ({}, {})\n  cause         {}\n  shows as      {}\n  equation      {}\n", effect.id,
+             name(effect.station), sides_of(effect), effect.cause, effect.signature,
              effect.equation);
   for (const EffectParameter& p : effect.parameters) {
     fmt::print("  {}  {}{}: {}, {} to {}, usually {}\n",
                p.role == model::effects::ParameterRole::size ? "size        " : "place       ",
-               p.name,
-               p.symbol.empty() ? "" : fmt::format(" ({})", p.symbol),
-               p.meaning,
-               short_number(p.lower),
-               short_number(p.upper),
-               short_number(p.nominal));
+               p.name, p.symbol.empty() ? "" : fmt::format(" ({})", p.symbol), p.meaning,
+               short_number(p.lower), short_number(p.upper), short_number(p.nominal));
   }
   fmt::print(
       "  usual size    {}\n  needs         {}\n  remedy        {}: {}\n  not modelled  {}\n"
       "  source        {}\n",
-      effect.typical,
-      name(effect.needs),
-      name(effect.remedy_kind),
-      effect.remedy,
-      effect.not_modelled,
-      effect.source);
+      effect.typical, name(effect.needs), name(effect.remedy_kind), effect.remedy,
+      effect.not_modelled, effect.source);
 }
 
 // The arrow's glyph for a shift, a dot if it is below a hundredth of a millimetre.
@@ -144,14 +132,8 @@ void print_square(const synthetic::ShiftedSquare& square) {
   fmt::print(
       "  at ({:.0f}, {:.0f}): sides {:.3f} (bottom), {:.3f} (right), {:.3f} (top), {:.3f} (left); "
       "diagonals {:.3f} / and {:.3f} \\ (square: {:.3f})\n",
-      square.centre.x_mm,
-      square.centre.y_mm,
-      square.side_mm[0],
-      square.side_mm[1],
-      square.side_mm[2],
-      square.side_mm[3],
-      square.diagonal_mm[0],
-      square.diagonal_mm[1],
+      square.centre.x_mm, square.centre.y_mm, square.side_mm[0], square.side_mm[1],
+      square.side_mm[2], square.side_mm[3], square.diagonal_mm[0], square.diagonal_mm[1],
       square.size_mm * std::numbers::sqrt2);
 }
 
@@ -165,28 +147,22 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
   fmt::print(
       "\nRequired size of {} (noise {} mm in length, {} mm in position; motors and zeros "
       "calibrated):\n",
-      size.name,
-      short_number(picture.noise.length_mm),
-      short_number(picture.noise.position_mm));
+      size.name, short_number(picture.noise.length_mm), short_number(picture.noise.position_mm));
   fmt::print("  {:>6}  {:>10}  {:>14}  {}\n", "points", "to show", "to be named", "nearest rival");
   for (const synthetic::StrengthAt& at : picture.strengths) {
     const synthetic::EffectStrength& s = at.strength;
-    std::string nearest =
-        s.nearest ? fmt::format(
-                        "{} (the same to {:.4f})", rival_words(*s.nearest), s.nearest->collinearity)
-                  : "none";
+    std::string nearest = s.nearest ? fmt::format("{} (the same to {:.4f})",
+                                                  rival_words(*s.nearest), s.nearest->collinearity)
+                                    : "none";
     for (const synthetic::Rival& same : s.inseparable) {
       nearest += fmt::format("; indistinguishable from {}", rival_words(same));
     }
-    fmt::print("  {:>6}  {:>10}  {:>14}  {}\n",
-               at.columns * at.rows,
+    fmt::print("  {:>6}  {:>10}  {:>14}  {}\n", at.columns * at.rows,
                short_number(s.detectable_size),
-               s.named_size ? short_number(*s.named_size) : "never",
-               nearest);
+               s.named_size ? short_number(*s.named_size) : "never", nearest);
   }
   fmt::print("  usual size {}; {:.0f} % of its effect remains after calibration with {} points\n",
-             short_number(size.nominal),
-             100.0 * picture.strengths.front().strength.share_left,
+             short_number(size.nominal), 100.0 * picture.strengths.front().strength.share_left,
              picture.strengths.front().columns * picture.strengths.front().rows);
 }
 
@@ -204,10 +180,8 @@ std::map<std::string, double> parse_values(const EffectsOptions& options,
   return values;
 }
 
-std::vector<double> chosen_values(const Effect& effect,
-                                  EffectSide side,
-                                  const EffectsOptions& options,
-                                  const Machine& machine) {
+std::vector<double> chosen_values(const Effect& effect, EffectSide side,
+                                  const EffectsOptions& options, const Machine& machine) {
   OptionProblems problems;
   AppliedEffect wanted = applied(effect, side, nominal_values(effect));
   for (const auto& [parameter, value] : parse_values(options, problems))
@@ -230,8 +204,8 @@ EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProb
   for (const EffectSide side : effect.sides) {
     if (name(side) == word || (word == "-" && side == EffectSide::none)) return side;
   }
-  problems.add(
-      "--side", word, fmt::format("one of {}", sides_of(effect)), ProblemKind::unknown_word);
+  problems.add("--side", word, fmt::format("one of {}", sides_of(effect)),
+               ProblemKind::unknown_word);
   return EffectSide::none;
 }
 
@@ -248,9 +222,7 @@ void check_options(const EffectsOptions& options, OptionProblems& problems) {
   if (const Effect* effect = model::effects::find_effect(options.id)) {
     (void)chosen_side(*effect, options.side, problems);
   } else if (!known_later && !is_declared()) {
-    problems.add("effect",
-                 options.id,
-                 "an effect that `chaintrue effects` lists",
+    problems.add("effect", options.id, "an effect that `chaintrue effects` lists",
                  ProblemKind::unknown_word);
   }
 }
@@ -268,12 +240,9 @@ std::optional<std::string> unreachable(const Machine& machine, const AppliedEffe
         return fmt::format(
             "the sled cannot be held at ({:.0f}, {:.0f}) mm of this bed: {}. Check the motors, "
             "which the file puts at ({:.0f}, {:.0f}) mm (left) and ({:.0f}, {:.0f}) mm (right)",
-            visit.position.x_mm,
-            visit.position.y_mm,
+            visit.position.x_mm, visit.position.y_mm,
             reading ? "the chains do not determine its place" : reading.error().sentence(),
-            machine.motors.left.x_mm,
-            machine.motors.left.y_mm,
-            machine.motors.right.x_mm,
+            machine.motors.left.x_mm, machine.motors.left.y_mm, machine.motors.right.x_mm,
             machine.motors.right.y_mm);
       }
     }
@@ -300,8 +269,8 @@ int show_picture(const Effect& effect, const EffectsOptions& options, const Mach
   }
   describe(effect);
   const std::string side_name(name(side));
-  fmt::print(
-      "\nOn \"{}\" with {}{}", machine.name, effect.id, side_name.empty() ? "" : " " + side_name);
+  fmt::print("\nOn \"{}\" with {}{}", machine.name, effect.id,
+             side_name.empty() ? "" : " " + side_name);
   for (const auto& [key, value] : picture.applied.parameters)
     fmt::print(", {} = {}", key, short_number(value));
   fmt::print("\nerror of the tool in mm (marks visited row by row):\n");
@@ -333,9 +302,7 @@ int run_effects(const EffectsOptions& options) {
   const Machine machine = machine_of(options);
   const Effect* effect = model::effects::find_effect(machine, options.id);
   if (effect == nullptr) {
-    refuse("command line",
-           "effect",
-           options.id,
+    refuse("command line", "effect", options.id,
            "an effect that `chaintrue effects` lists, or that --effects declares",
            ProblemKind::unknown_word);
   }
@@ -350,8 +317,7 @@ int run_effects(const EffectsOptions& options) {
 
 void add_effects(Verb app) {
   auto [verb, c] = app.add_verb<EffectsOptions>(
-      "effects",
-      "List the catalogue of effects, or show what one of them does to a machine",
+      "effects", "List the catalogue of effects, or show what one of them does to a machine",
       R"(Examples:
   build/chaintrue effects
   build/chaintrue effects --atlas fixtures/plotter/mural.txt -o atlas.html
@@ -366,11 +332,9 @@ void add_effects(Verb app) {
             {"--draw", writes(c.drawing, {Origin::drawing}), "Also write it as an SVG picture"},
             {"--json", c.json, "For programs"},
             {"--markdown", c.markdown, "Print the catalogue as in docs/effects.md"},
-            {"--effects",
-             reads(c.declared),
+            {"--effects", reads(c.declared),
              "chaintrue_effect files: declared effects, in addition to the catalogue's"},
-            {"--atlas",
-             reads(c.atlas),
+            {"--atlas", reads(c.atlas),
              "Write a page with a picture of each cause for a machine with two chains, four "
              "belts or a pen; with the name of an effect or a setting, only that one"},
             {"-o,--output", writes(c.output, {Origin::page}), "The page (HTML) of --atlas"}});

@@ -85,8 +85,8 @@ struct View {
   double scale = 1.0;
   double height = 0.0;
   std::string point(ToolPosition at) const {
-    return fmt::format(
-        "{:.1f} {:.1f}", kPad + scale * (at.x_mm - left_mm), kPad + scale * (top_mm - at.y_mm));
+    return fmt::format("{:.1f} {:.1f}", kPad + scale * (at.x_mm - left_mm),
+                       kPad + scale * (top_mm - at.y_mm));
   }
 };
 
@@ -108,10 +108,8 @@ View view_of(const std::vector<AtlasLine>& lines) {
 }
 
 /// Errors `times` as large; a line is broken where the machine cannot hold the tool.
-std::string path_of(const View& view,
-                    const AtlasLine& line,
-                    const std::vector<std::optional<ToolPosition>>& drawn,
-                    double times) {
+std::string path_of(const View& view, const AtlasLine& line,
+                    const std::vector<std::optional<ToolPosition>>& drawn, double times) {
   std::string path;
   bool pen_is_down = false;
   for (std::size_t i = 0; i < line.points.size(); ++i) {
@@ -129,11 +127,8 @@ std::string path_of(const View& view,
 }
 
 /// The lines of the lattice as one path, those of the square as another.
-std::string paths(const View& view,
-                  const std::vector<AtlasLine>& lines,
-                  const AtlasFrame& frame,
-                  double times,
-                  std::string_view colour) {
+std::string paths(const View& view, const std::vector<AtlasLine>& lines, const AtlasFrame& frame,
+                  double times, std::string_view colour) {
   std::string svg;
   for (const bool of_square : {false, true}) {
     std::string path;
@@ -141,10 +136,8 @@ std::string paths(const View& view,
       if (lines[k].is_of_square == of_square)
         path += path_of(view, lines[k], frame.lines[k], times);
     }
-    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-                       path,
-                       colour,
-                       of_square ? 2.2 : 1.1);
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n", path,
+                       colour, of_square ? 2.2 : 1.1);
   }
   return svg;
 }
@@ -155,11 +148,8 @@ std::string words_of_size(const AtlasPicture& picture, double size) {
                                         {std::string(picture.parameter), size});
   }
   const std::string unit = diagnosis::parameter_words(picture.parameter).unit;
-  return fmt::format("{} {}{}{} than set",
-                     short_number(std::abs(size)),
-                     unit,
-                     unit.empty() ? "" : " ",
-                     size > 0.0 ? "more" : "less");
+  return fmt::format("{} {}{}{} than set", short_number(std::abs(size)), unit,
+                     unit.empty() ? "" : " ", size > 0.0 ? "more" : "less");
 }
 
 std::string caption_of(const AtlasPicture& picture, double times) {
@@ -175,15 +165,13 @@ std::string caption_of(const AtlasPicture& picture, double times) {
     if (!side.empty()) title += fmt::format(" ({})", side);
     id = fmt::format("{}{}{}", picture.effect->id, side.empty() ? "" : ":", side);
   }
-  const std::string drawn = picture.largest_shift_mm < kNothingMm
-                                ? "No line moves."
-                                : fmt::format("Up to {} mm, errors drawn {} times as large.",
-                                              short_number(picture.largest_shift_mm),
-                                              short_number(times));
-  return fmt::format("<figcaption><b>{}</b><br>{}<code>{}</code></figcaption>\n",
-                     escaped(title),
-                     drawn,
-                     escaped(id));
+  const std::string drawn =
+      picture.largest_shift_mm < kNothingMm
+          ? "No line moves."
+          : fmt::format("Up to {} mm, errors drawn {} times as large.",
+                        short_number(picture.largest_shift_mm), short_number(times));
+  return fmt::format("<figcaption><b>{}</b><br>{}<code>{}</code></figcaption>\n", escaped(title),
+                     drawn, escaped(id));
 }
 
 /// Index of the frame without error among the sizes.
@@ -208,17 +196,14 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
   const AtlasFrame straight = as_commanded(atlas.lines);
   std::string svg =
       fmt::format("<figure>\n<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
-                  kPictureWidth,
-                  view.height,
+                  kPictureWidth, view.height,
                   escaped(words_of_size(picture, picture.frames[picture.usual].size)));
   svg += paths(view, atlas.lines, straight, 1.0, report::kNeutralColor);
   const std::size_t nothing = place_of_nothing(picture);
   const std::size_t shown = picture.usual + (picture.usual >= nothing ? 1 : 0);
   const auto add = [&](std::size_t at, const std::string& size, const std::string& lines) {
-    svg += fmt::format("<g data-size=\"{}\"{}>\n{}</g>\n",
-                       escaped(size),
-                       at == shown ? "" : " style=\"display:none\"",
-                       lines);
+    svg += fmt::format("<g data-size=\"{}\"{}>\n{}</g>\n", escaped(size),
+                       at == shown ? "" : " style=\"display:none\"", lines);
   };
   for (std::size_t at = 0; at <= picture.frames.size(); ++at) {
     if (at == nothing) {
@@ -226,16 +211,14 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
       continue;
     }
     const AtlasFrame& frame = picture.frames[at - (at > nothing ? 1 : 0)];
-    add(at,
-        words_of_size(picture, frame.size),
+    add(at, words_of_size(picture, frame.size),
         paths(view, atlas.lines, frame, times, report::kBeforeColor));
   }
   svg += "</svg>\n" + caption_of(picture, times);
   svg += fmt::format(
       "<input type=\"range\" min=\"0\" max=\"{}\" step=\"1\" value=\"{}\" aria-label=\"size of the "
       "cause\">\n<output>{}</output>\n</figure>\n",
-      picture.frames.size(),
-      shown,
+      picture.frames.size(), shown,
       escaped(words_of_size(picture, picture.frames[picture.usual].size)));
   return svg;
 }
@@ -247,8 +230,7 @@ std::string section_of(const View& view, const Atlas& atlas, bool of_settings) {
   }
   if (figures.empty()) return "";
   return fmt::format("<h2>{}</h2>\n<div class=\"pictures\">\n{}</div>\n",
-                     of_settings ? "Wrong settings" : "Causes in the machine",
-                     figures);
+                     of_settings ? "Wrong settings" : "Causes in the machine", figures);
 }
 
 /// \param machine its name. Same atlas, same bytes.
@@ -263,8 +245,7 @@ std::string atlas_page(const Atlas& atlas, const std::string& machine) {
 <h1>What each cause draws</h1>
 <p>{0}. Grey: the lines as they were sent. Orange: the lines as the machine draws them with one thing wrong. Find the picture that looks like your sheet; the slider makes the cause larger, smaller, or turns it round.</p>
 {2})",
-             escaped(machine),
-             kStyle,
+             escaped(machine), kStyle,
              atlas.calibrates_first
                  ? "<p>With a cause in the machine the frame is calibrated first: the drawing "
                    "shows the remaining error with the anchors found.</p>\n"
@@ -284,17 +265,14 @@ NamedAtlas of_plotter(const model::PlotterMachine& machine, const std::string& c
 
 void refuse_declared(const InputFile& file, const std::vector<std::string>& declared) {
   if (declared.empty()) return;
-  refuse("command line",
-         "--effects",
-         declared.front(),
+  refuse("command line", "--effects", declared.front(),
          fmt::format(
              "to be left out, because declared effects act on two chains, which {} does not have",
              file.name),
          ProblemKind::contradiction);
 }
 
-NamedAtlas atlas_of_file(const InputFile& file,
-                         const std::string& cause,
+NamedAtlas atlas_of_file(const InputFile& file, const std::string& cause,
                          const std::vector<std::string>& declared) {
   if (is_of_a_plotter(file)) {
     refuse_declared(file, declared);
@@ -302,12 +280,8 @@ NamedAtlas atlas_of_file(const InputFile& file,
     print_warnings(read.warnings);
     return of_plotter(read.plotter.set.machine, cause);
   }
-  require_kind(file,
-               {FileKind::machine,
-                FileKind::belts,
-                FileKind::anchors,
-                FileKind::plotter,
-                FileKind::drawing});
+  require_kind(file, {FileKind::machine, FileKind::belts, FileKind::anchors, FileKind::plotter,
+                      FileKind::drawing});
   if (file.kind == FileKind::machine) {
     Machine machine = load_machine(file);
     files::declare_effects(declared, machine);
@@ -322,22 +296,17 @@ NamedAtlas atlas_of_file(const InputFile& file,
 
 }  // namespace
 
-int write_atlas(const std::string& machine,
-                const std::string& cause,
-                const std::vector<std::string>& declared,
-                const std::string& output) {
+int write_atlas(const std::string& machine, const std::string& cause,
+                const std::vector<std::string>& declared, const std::string& output) {
   const NamedAtlas named = atlas_of_file(open_input(machine), cause, declared);
   if (named.atlas.pictures.empty() && named.atlas.not_drawn.empty()) {
-    refuse("command line",
-           "effect",
-           cause,
+    refuse("command line", "effect", cause,
            fmt::format("a cause or a setting of {}: without a name all are drawn", machine),
            ProblemKind::unknown_word);
   }
   end_progress();
   write_output(output, atlas_page(named.atlas, named.machine));
-  say("{}: {} of possible causes; find the one that looks like your sheet",
-      output,
+  say("{}: {} of possible causes; find the one that looks like your sheet", output,
       named.atlas.pictures.size() == 1 ? "a picture"
                                        : fmt::format("{} pictures", named.atlas.pictures.size()));
   for (const std::string& missing : named.atlas.not_drawn)

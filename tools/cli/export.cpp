@@ -28,27 +28,22 @@ namespace {
 
 /// \throws Failed, unless forced, if numbers would depend on an effect that a diagnosis added and that
 /// may not act.
-void require_sure_causes(const std::vector<AppliedEffect>& effects,
-                         const std::string& name,
+void require_sure_causes(const std::vector<AppliedEffect>& effects, const std::string& name,
                          bool is_forced) {
   std::vector<std::string> weak;
   for (const AppliedEffect& one : effects) {
     if (is_forced || one.probability.value_or(1.0) >= diagnosis::kSureOfCause) continue;
     const model::effects::Effect* effect = model::effects::find_effect(one.effect);
-    weak.push_back(fmt::format("{}{}{} ({})",
-                               effect != nullptr ? effect->cause : std::string_view(one.effect),
-                               one.side.empty() ? "" : ", ",
-                               one.side,
-                               diagnosis::percent(*one.probability)));
+    weak.push_back(
+        fmt::format("{}{}{} ({})", effect != nullptr ? effect->cause : std::string_view(one.effect),
+                    one.side.empty() ? "" : ", ", one.side, diagnosis::percent(*one.probability)));
   }
   if (weak.empty()) return;
   throw Failed(
-      name,
-      "weak_causes",
+      name, "weak_causes",
       fmt::format("this machine depends on {}, and numbers to type in require at least {}. Measure "
                   "what the diagnosis proposes next and diagnose again; --force continues anyway.",
-                  diagnosis::joined(weak, "and"),
-                  diagnosis::percent(diagnosis::kSureOfCause)),
+                  diagnosis::joined(weak, "and"), diagnosis::percent(diagnosis::kSureOfCause)),
       kCheckFailed);
 }
 
@@ -56,15 +51,12 @@ void require_sure_causes(const std::vector<AppliedEffect>& effects,
 Diagnosis load_diagnosis(const InputFile& file, bool of_belts) {
   Diagnosis found = load_diagnosis(file);
   if (found.drawing) {
-    refuse(file.name,
-           "/observations",
-           "a diagnosis of a test drawing",
+    refuse(file.name, "/observations", "a diagnosis of a test drawing",
            "one of another machine; for a V-plotter, export plotter prints the lines from the "
            "result of fit");
   }
   if (found.belts.has_value() != of_belts) {
-    refuse(file.name,
-           "/observations",
+    refuse(file.name, "/observations",
            of_belts ? "a diagnosis of a machine on chains" : "a diagnosis of four belts",
            of_belts ? "one of four belts; for chains use export groundcontrol"
                     : "one of a machine on chains; for belts use export maslow4");
@@ -102,8 +94,7 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool is_
 std::string written_map_after(Verb verb, const Exported& exported, const ExportCommand& command) {
   if (command.map_after.empty()) return "";
   if (exported.map_after) return files::write_map(*exported.map_after, made_by(verb));
-  refuse(command.input,
-         "a map for a controller without GroundControl's settings",
+  refuse(command.input, "a map for a controller without GroundControl's settings",
          "--map-after to be left out: put the machine's anchors into FluidNC's "
          "config.yaml, and compensate with this map and --settings config.yaml");
 }
@@ -112,8 +103,7 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
   const InputFile file = open_input(command.input);
   if (!is_untyped_json(file)) {
     require_kind(
-        file,
-        {FileKind::machine, FileKind::map, FileKind::diagnosis},
+        file, {FileKind::machine, FileKind::map, FileKind::diagnosis},
         file.kind == FileKind::anchors ? "anchors of four belts are read by export maslow4" : "");
   }
   verb.refuse_idle_options(file.fact());
@@ -148,8 +138,7 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
 
 void add_maslow4(Verb verb) {
   auto [maslow4, c] = verb.add_verb<ExportCommand>(
-      "maslow4",
-      "Print the lines to paste into a Maslow 4's terminal",
+      "maslow4", "Print the lines to paste into a Maslow 4's terminal",
       R"(The fitted anchors, in millimetres of belt; with a taped distance also the scales, if they change.
 
 Example:
@@ -157,8 +146,7 @@ Example:
   build/chaintrue export maslow4 anchors.json)",
       export_maslow4);
   maslow4.has(
-      {{"file",
-        required(reads(c.input)),
+      {{"file", required(reads(c.input)),
         "A chaintrue_anchors file from fit, or a diagnosis of belts"},
        {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"}});
 }
@@ -178,8 +166,7 @@ int export_plotter(const ExportCommand& command) {
 
 void add_plotter(Verb export_verb) {
   auto [verb, c] = export_verb.add_verb<ExportCommand>(
-      "plotter",
-      "Print the numbers to type into a V-plotter's controller after a test drawing",
+      "plotter", "Print the numbers to type into a V-plotter's controller after a test drawing",
       R"(Example:
   build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json
   build/chaintrue export plotter found.json)",
@@ -192,14 +179,13 @@ void add_plotter(Verb export_verb) {
 }  // namespace
 
 void add_export(Verb app) {
-  Verb verb = app.add_verb("export",
-                           "Convert a map, machine or diagnosis into settings for other programs",
-                           R"(Example:
+  Verb verb =
+      app.add_verb("export", "Convert a map, machine or diagnosis into settings for other programs",
+                   R"(Example:
   build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json)");
   verb.require_verb();
   auto [groundcontrol, c] = verb.add_verb<ExportCommand>(
-      "groundcontrol",
-      "Print the numbers to type into GroundControl",
+      "groundcontrol", "Print the numbers to type into GroundControl",
       R"(Prints the settings that bring the controller closest to the map, to the machine, or to the machine that a
 diagnosis found, the error before and after, and the error from causes without a setting. Other settings
 are unchanged. No number is based on a cause below 90 %: then the exit code is 1 and nothing is written.
@@ -213,14 +199,11 @@ Example:
   build/chaintrue export groundcontrol map.json -o settings.ini --map-after map.after.json)",
       export_groundcontrol);
   groundcontrol.has(
-      {{"file",
-        required(reads(c.input)),
+      {{"file", required(reads(c.input)),
         "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis"},
        {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"},
-       {"--map-after",
-        writes(c.map_after, {Origin::map}),
-        "With a map: also write the map to use once these numbers are typed in",
-        facts::map,
+       {"--map-after", writes(c.map_after, {Origin::map}),
+        "With a map: also write the map to use once these numbers are typed in", facts::map,
         "to be left out, because only a map has a successor for the new numbers"}});
   add_maslow4(verb);
   add_plotter(verb);

@@ -42,8 +42,8 @@ std::string without_table(const grid::MapFailure& failure) {
 WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
   const auto nearest = grid::straight_settings(named.map, grid::Anchors::free);
   if (!nearest) return tl::unexpected(nearest.error().sentence());
-  auto module = files::klipper_kinematics(
-      grid::MapInFrame(named.map), {nearest->anchors, nearest->longer_mm}, named.name);
+  auto module = files::klipper_kinematics(grid::MapInFrame(named.map),
+                                          {nearest->anchors, nearest->longer_mm}, named.name);
   if (!module) return tl::unexpected(without_table(module.error()));
   return Written{
       std::move(module->source),
@@ -52,10 +52,7 @@ WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
           "{:.4f} mm of the map, and moves are split into pieces of at most {:g} mm.\nCopy it as "
           "chaintrue.py into klippy/kinematics, and set kinematics: chaintrue in printer.cfg, with "
           "a [stepper_left] and a [stepper_right]. The file's first lines explain the rest.",
-          module->columns,
-          module->rows,
-          module->spacing_mm,
-          module->largest_error_mm,
+          module->columns, module->rows, module->spacing_mm, module->largest_error_mm,
           module->piece_mm)};
 }
 
@@ -70,8 +67,7 @@ void check_module_name(const MapCommand& command, OptionProblems& problems) {
   const bool is_identifier = name.find_first_of(letters) == 0 &&
                              name.find_first_not_of(letters + "0123456789") == std::string::npos;
   if (!is_identifier) {
-    problems.add("--output",
-                 command.output,
+    problems.add("--output", command.output,
                  "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of "
                  "letters, digits and _",
                  ProblemKind::output_place);
@@ -88,15 +84,11 @@ WrittenOrWhy linuxcnc_module(const NamedMap& named, const std::string& output) {
                   "within {:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or "
                   "later) runs: halcompile --install {}.c. In the machine's INI file: [KINS] "
                   "KINEMATICS = {} and JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.",
-                  module->columns,
-                  module->rows,
-                  module->spacing_mm,
-                  module->largest_error_mm,
+                  module->columns, module->rows, module->spacing_mm, module->largest_error_mm,
                   module->largest_error_mm > files::kTableErrorMm
                       ? ", more than intended, because this map bends within millimetres"
                       : "",
-                  name,
-                  name)};
+                  name, name)};
 }
 
 std::string fluidnc_lines(const grid::StraightSettings& s) {
@@ -113,12 +105,8 @@ axes:
   y:
     steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>
 )",
-      s.anchors.left.x_mm,
-      s.anchors.left.y_mm,
-      s.anchors.right.x_mm,
-      s.anchors.right.y_mm,
-      s.more_steps.left,
-      s.more_steps.right);
+      s.anchors.left.x_mm, s.anchors.left.y_mm, s.anchors.right.x_mm, s.anchors.right.y_mm,
+      s.more_steps.left, s.more_steps.right);
 }
 
 /// Its x counts from the left anchor, its y down from the line between them.
@@ -129,11 +117,8 @@ $100=<steps of a turn / mm of chain in a turn, times {:.6f}>
 $101=<steps of a turn / mm of chain in a turn, times {:.6f}>
 ; 0, 0 of the sheet is at X{:.3f} Y{:.3f} of the controller, whose Y counts downwards
 )",
-      s.anchors.right.x_mm - s.anchors.left.x_mm,
-      s.more_steps.left,
-      s.more_steps.right,
-      -s.anchors.left.x_mm,
-      s.anchors.left.y_mm);
+      s.anchors.right.x_mm - s.anchors.left.x_mm, s.more_steps.left, s.more_steps.right,
+      -s.anchors.left.x_mm, s.anchors.left.y_mm);
 }
 
 template <grid::Anchors kAnchors, auto kLines>
@@ -145,8 +130,7 @@ WrittenOrWhy straight_lines(const NamedMap& named, const std::string&) {
       fmt::format(
           "With these numbers the tool is still off by {:.2f} mm rms over the measured part, "
           "{:.2f} mm at worst, because this controller's straight lines do not sag. {}",
-          nearest->left_over.rms_mm,
-          nearest->left_over.maximum_mm,
+          nearest->left_over.rms_mm, nearest->left_over.maximum_mm,
           kAnchors == grid::Anchors::free ? "Switch it on with the tool at 0, 0 of the sheet."
                                           : "Its Y points down: mirror the program, and shift it "
                                             "by the offset in the last line.")};
@@ -164,27 +148,19 @@ struct Controller {
 constexpr Controller kControllers[] = {
     {"linuxcnc",
      "Write the map as a kinematics module for LinuxCNC, which then needs no compensated files",
-     "chaintrue_kins.c",
-     Origin::table,
-     "The module's source (C); - is standard output",
+     "chaintrue_kins.c", Origin::table, "The module's source (C); - is standard output",
      linuxcnc_module},
     {"klipper",
      "Write the map as a kinematics module for Klipper, which then needs no compensated files",
-     "chaintrue.py",
-     Origin::table,
-     "The module's source (Python); - is standard output",
+     "chaintrue.py", Origin::table, "The module's source (Python); - is standard output",
      klipper_module},
     {"fluidnc",
-     "Find the WallPlotter settings that come closest to a map, and the error they leave",
-     "-",
-     Origin::list,
-     "Output file; - is standard output",
+     "Find the WallPlotter settings that come closest to a map, and the error they leave", "-",
+     Origin::list, "Output file; - is standard output",
      straight_lines<grid::Anchors::free, fluidnc_lines>},
     {"grblhal",
      "Find grblHAL's wall plotter settings that come closest to a map, and the error they leave",
-     "-",
-     Origin::list,
-     "Output file; - is standard output",
+     "-", Origin::list, "Output file; - is standard output",
      straight_lines<grid::Anchors::level, grblhal_lines>},
 };
 
@@ -210,8 +186,7 @@ void add_export_map(Verb export_verb) {
   for (const Controller& controller : kControllers) {
     const bool is_module = controller.kind == Origin::table;
     auto [verb, c] = export_verb.add_verb<MapCommand>(
-        controller.name,
-        controller.help,
+        controller.name, controller.help,
         fmt::format(
             R"({}Example:
   build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json -o map.json
@@ -219,9 +194,7 @@ void add_export_map(Verb export_verb) {
             is_module
                 ? ""
                 : "To correct the remaining error, compensate each program (gcode compensate).\n\n",
-            controller.name,
-            is_module ? " -o " : "",
-            is_module ? controller.output : ""),
+            controller.name, is_module ? " -o " : "", is_module ? controller.output : ""),
         [&controller](Verb chosen, const MapCommand& own) {
           return export_map(chosen, own, controller);
         });

@@ -56,15 +56,11 @@ std::string words_of(const grid::Lacking& lacking, const Machine& machine) {
 }
 
 /// Errors before and after, from one evaluation, and the causes of the rest.
-std::string words_of(const std::string& today,
-                     const Machine& machine,
-                     const grid::SettingsToType& typed,
-                     bool holds_numbers) {
+std::string words_of(const std::string& today, const Machine& machine,
+                     const grid::SettingsToType& typed, bool holds_numbers) {
   std::string words =
       typed.worth_typing || !holds_numbers
-          ? fmt::format("{} with these numbers {:.2f} and {:.2f} mm.\n",
-                        today,
-                        typed.typed.rms_mm,
+          ? fmt::format("{} with these numbers {:.2f} and {:.2f} mm.\n", today, typed.typed.rms_mm,
                         typed.typed.maximum_mm)
           : fmt::format("{} Other numbers would gain less than a tenth, so keep yours.\n", today);
   for (const grid::Lacking& one : typed.lacking) words += words_of(one, machine);
@@ -78,12 +74,10 @@ std::string today_in_words(const CompensationMap& map, const grid::SettingsToTyp
   return fmt::format(
       "With today's settings the tool is {:.2f} mm rms off over the measured part, {:.2f} mm at "
       "worst{};",
-      today.rms_mm,
-      today.maximum_mm,
+      today.rms_mm, today.maximum_mm,
       has_placed_sheet(map.contents())
           ? fmt::format(" ({:.2f} and {:.2f} mm with the sheet correctly placed)",
-                        typed.as_it_is.rms_mm,
-                        typed.as_it_is.maximum_mm)
+                        typed.as_it_is.rms_mm, typed.as_it_is.maximum_mm)
           : "");
 }
 
@@ -95,43 +89,36 @@ std::string map_after_in_words(const ExportCommand& command) {
   return fmt::format(
       "Type them in, measure five marks and check them with {0}. From then on run programs "
       "unchanged or, for better accuracy, compensate them with {0}. Do not use {1} again.\n",
-      command.map_after,
-      command.input);
+      command.map_after, command.input);
 }
 
 /// Old values are given for numbers in force.
-files::GroundcontrolText text_of(const Machine& machine,
-                                 const grid::SettingsToType& typed,
-                                 const std::string& by,
-                                 bool holds_numbers) {
+files::GroundcontrolText text_of(const Machine& machine, const grid::SettingsToType& typed,
+                                 const std::string& by, bool holds_numbers) {
   auto text = files::write_groundcontrol_settings(machine, typed.settings, by);
   if (!holds_numbers) text.remarks.clear();
   return text;
 }
 
 /// The map of the machine with its numbers typed in.
-CompensationMap map_after_of(const CompensationMap& map,
-                             const Machine& before,
-                             const model::Controller& now,
-                             bool holds_numbers) {
+CompensationMap map_after_of(const CompensationMap& map, const Machine& before,
+                             const model::Controller& now, bool holds_numbers) {
   std::string numbers;
   if (holds_numbers) {
     Machine after = before;
     after.controller = now;
-    numbers = fmt::format(" ({})",
-                          files::in_words(files::changed_settings(
-                              files::settings_in_force(before), files::settings_in_force(after))));
+    numbers = fmt::format(
+        " ({})", files::in_words(files::changed_settings(files::settings_in_force(before),
+                                                         files::settings_in_force(after))));
   }
   return grid::map_for_settings(
-      map,
-      now,
+      map, now,
       fmt::format("For a controller that holds the numbers from export groundcontrol{}.", numbers));
 }
 
 }  // namespace
 
-Exported exported_from(const CompensationMap& map,
-                       const std::string& file,
+Exported exported_from(const CompensationMap& map, const std::string& file,
                        const ExportCommand& command) {
   const auto fail = [&file](const grid::SettingsFailure& why) {
     throw InputError({{file, "", "", "", why.sentence()}});
@@ -144,13 +131,10 @@ Exported exported_from(const CompensationMap& map,
   const auto typed = grid::settings_to_type(map, machine.controller);
   Exported result;
   if (typed) {
-    result = {text_of(machine,
-                      *typed,
-                      fmt::format("the {} points of {}", typed->points, file),
+    result = {text_of(machine, *typed, fmt::format("the {} points of {}", typed->points, file),
                       holds_numbers),
               words_of(today_in_words(map, *typed), machine, *typed, holds_numbers),
-              next_of(command, (typed->worth_typing || !holds_numbers) && !is_wall_plotter),
-              map};
+              next_of(command, (typed->worth_typing || !holds_numbers) && !is_wall_plotter), map};
     if (!typed->worth_typing && holds_numbers) return result;
     if (typed->worth_typing) result.words += map_after_in_words(command);
   } else {
@@ -173,10 +157,8 @@ std::vector<BedPoint> corners_of(const Bed& bed) {
   return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-Exported of_machine(const Machine& stated,
-                    const std::string& file,
-                    const std::vector<BedPoint>& area,
-                    Words next) {
+Exported of_machine(const Machine& stated, const std::string& file,
+                    const std::vector<BedPoint>& area, Words next) {
   const bool holds_numbers = stated.controller.settings.motor_spacing_mm.has_value();
   if (!files::says_more_than_its_settings(stated))
     return {files::write_groundcontrol(stated), "", std::move(next)};
@@ -188,13 +170,11 @@ Exported of_machine(const Machine& stated,
   const std::string today = fmt::format(
       "If the machine were as {} describes it, the tool would be {:.2f} mm rms off with {}, {:.2f} "
       "mm at worst;",
-      file,
-      typed->as_it_is.rms_mm,
+      file, typed->as_it_is.rms_mm,
       holds_numbers ? "today's settings" : "its own dimensions as settings",
       typed->as_it_is.maximum_mm);
   return {text_of(machine, *typed, file, holds_numbers),
-          words_of(today, machine, *typed, holds_numbers),
-          std::move(next)};
+          words_of(today, machine, *typed, holds_numbers), std::move(next)};
 }
 
 /// Named causes that may be the paper's are not in the machine.
@@ -208,8 +188,7 @@ std::string left_out_in_words(const Diagnosis& found) {
     words += fmt::format(
         "These numbers leave out an error that may be {}{} or the tape used for the marks. A map "
         "corrects it either way: export its numbers instead.\n",
-        cause.cause.effect->cause,
-        diagnosis::side_words(cause.cause));
+        cause.cause.effect->cause, diagnosis::side_words(cause.cause));
   }
   return words;
 }
@@ -229,8 +208,7 @@ Exported exported_from(const Machine& stated, const std::string& file, Words nex
   return of_machine(stated, file, corners_of(stated.bed), std::move(next));
 }
 
-Exported exported_from(const Diagnosis& found,
-                       const std::string& file,
+Exported exported_from(const Diagnosis& found, const std::string& file,
                        const ExportCommand& command) {
   Exported exported =
       of_machine(found.extended_machine, file, area_of(found), report_words(command.input));

@@ -32,13 +32,11 @@ struct Exported {
 };
 
 /// The best fit of the controller's formulas to the map in `file`.
-Exported exported_from(const CompensationMap& map,
-                       const std::string& file,
+Exported exported_from(const CompensationMap& map, const std::string& file,
                        const ExportCommand& command);
 /// A machine that agrees with its controller's settings changes none of them.
 Exported exported_from(const Machine& stated, const std::string& file, Words next);
-Exported exported_from(const Diagnosis& found,
-                       const std::string& file,
+Exported exported_from(const Diagnosis& found, const std::string& file,
                        const ExportCommand& command);
 
 }  // namespace chaintrue::cli

@@ -22,13 +22,9 @@ std::string_view name_in(decltype(kLast) reason, const std::string_view (&names)
 }  // namespace
 
 std::string_view name_of(grid::BeltsFitReason reason) {
-  return name_in<grid::BeltsFitReason::tape_contradicts>(reason,
-                                                         {"too_few_points",
-                                                          "not_determined",
-                                                          "no_frame",
-                                                          "hole_without_anchors",
-                                                          "too_many_distances",
-                                                          "tape_contradicts"});
+  return name_in<grid::BeltsFitReason::tape_contradicts>(
+      reason, {"too_few_points", "not_determined", "no_frame", "hole_without_anchors",
+               "too_many_distances", "tape_contradicts"});
 }
 
 std::string_view name_of(grid::CheckReason reason) {
@@ -38,14 +34,9 @@ std::string_view name_of(grid::CheckReason reason) {
 }
 
 std::string_view name_of(grid::FitReason reason) {
-  return name_in<grid::FitReason::not_converged>(reason,
-                                                 {"no_machine",
-                                                  "not_a_grid",
-                                                  "no_lengths",
-                                                  "point_unreachable",
-                                                  "rank_deficient",
-                                                  "impossible_readings",
-                                                  "not_converged"});
+  return name_in<grid::FitReason::not_converged>(
+      reason, {"no_machine", "not_a_grid", "no_lengths", "point_unreachable", "rank_deficient",
+               "impossible_readings", "not_converged"});
 }
 
 std::string_view name_of(grid::PlanReason reason) {
@@ -54,13 +45,9 @@ std::string_view name_of(grid::PlanReason reason) {
 }
 
 std::string_view name_of(diagnosis::DiagnosisReason reason) {
-  return name_in<diagnosis::DiagnosisReason::contradictory_settings>(reason,
-                                                                     {"no_machine",
-                                                                      "no_lengths",
-                                                                      "too_few_points",
-                                                                      "no_noise",
-                                                                      "point_unreachable",
-                                                                      "contradictory_settings"});
+  return name_in<diagnosis::DiagnosisReason::contradictory_settings>(
+      reason, {"no_machine", "no_lengths", "too_few_points", "no_noise", "point_unreachable",
+               "contradictory_settings"});
 }
 
 }  // namespace chaintrue::cli

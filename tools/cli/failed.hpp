@@ -37,9 +37,7 @@ std::string_view name_of(grid::PlanReason reason);
 std::string_view name_of(diagnosis::DiagnosisReason reason);
 
 struct Failed : std::runtime_error {
-  Failed(std::string file,
-         std::string_view why,
-         const std::string& sentence,
+  Failed(std::string file, std::string_view why, const std::string& sentence,
          int exit_code = kBadInput)
       : std::runtime_error(sentence), about(std::move(file)), reason(why), code(exit_code) {}
   /// \param failure a Failure of one of the reasons above

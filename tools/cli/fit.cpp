@@ -39,12 +39,9 @@ void refuse_too_many(const grid::Measured& measured) {
   const auto refuse = [&](std::size_t found, const char* what, std::size_t most) {
     if (found <= most) return;
     throw Failed(
-        measured.files().front().name,
-        "too_many",
+        measured.files().front().name, "too_many",
         fmt::format("{} {} are more than a fit accepts ({}): leave some out, evenly over the bed",
-                    found,
-                    what,
-                    most));
+                    found, what, most));
   };
   const ReadingCounts counts = counts_of(measured);
   refuse(counts.points, "points", kMostPoints);
@@ -57,23 +54,19 @@ void check_as_read(const std::string& text, const std::string& measured) {
   try {
     (void)files::parse_map(text, "the map");
   } catch (const InputError& error) {
-    throw Failed(measured,
-                 name_of(grid::FitReason::impossible_readings),
+    throw Failed(measured, name_of(grid::FitReason::impossible_readings),
                  "no machine is consistent with these points, so no map is written: " +
                      error.problems().front().message());
   }
 }
 
-int finish(Verb verb,
-           const FitCommand& command,
-           const CompensationMap& map,
+int finish(Verb verb, const FitCommand& command, const CompensationMap& map,
            const std::vector<Section>& more) {
   const std::string text = files::write_map(map, made_by(verb));
   check_as_read(text, files::name_in_messages(command.input.grid));
   Document document = map_document(map, command.output, command.detail(), command.wish_mm);
   grid::append_all(document.sections, more);
-  write_fitted(command,
-               text,
+  write_fitted(command, text,
                command.json ? files::write_fit(map, fit_sentence(map), command.wish_mm) : "",
                document);
   if (const std::string why = not_to_cut_with(map); !why.empty()) {
@@ -174,9 +167,7 @@ int run_fit(Verb verb, const FitCommand& command) {
 
 }  // namespace
 
-void write_fitted(const FitCommand& command,
-                  const std::string& text,
-                  const std::string& json,
+void write_fitted(const FitCommand& command, const std::string& text, const std::string& json,
                   const Document& document) {
   Outputs outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", json});
@@ -198,41 +189,40 @@ Example:
   build/chaintrue fit fixtures/grids/seven_by_four.json --with fixtures/holes/nine_holes.json -o map.json
   build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json
   build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json)",
-      run_fit,
-      [](const FitCommand& own) {
+      run_fit, [](const FitCommand& own) {
         if (own.json && own.output == "-") {
           usage_error("fit", "--json and the map cannot both go to standard output");
         }
       });
   add_grid_options(verb, c.input);
   add_tape_options(verb, c.tape);
-  verb.has({effects_row(c.input),
-            {"--with",
-             reads(c.with),
-             "More files of the same machine: grids or chaintrue_holes; with belts, "
-             "chaintrue_holes. All are fitted together, in the coordinates of the first",
-             no_drawing,
-             "to be left out for a test drawing, whose file describes the plotter",
-             {{residual, "to be left out, because a direct surface needs a single grid"}}},
-            {"-o,--output",
-             required(writes(c.output, {Origin::map, Origin::anchors, Origin::machine})),
-             "The result: a map file, for belts an anchors file, for a drawing a plotter file; - "
-             "is standard output"},
-            {"--surface",
-             {c.surface, {"residual", "direct"}},
-             "residual: a smooth correction of the calibrated machine; direct: splines "
-             "through the lengths, without a machine",
-             chains,
-             "to be left out, because belts and drawings have no surface",
-             {{one_grid,
-               "\"residual\", because a direct surface needs chain lengths at known places, from a "
-               "single grid"}},
-             "residual"},
-            {"--ends",
-             {c.ends, files::words_of(files::kEndConditions)},
-             "End condition of direct splines",
-             direct,
-             "to be left out without --surface direct"}});
+  verb.has(
+      {effects_row(c.input),
+       {"--with",
+        reads(c.with),
+        "More files of the same machine: grids or chaintrue_holes; with belts, "
+        "chaintrue_holes. All are fitted together, in the coordinates of the first",
+        no_drawing,
+        "to be left out for a test drawing, whose file describes the plotter",
+        {{residual, "to be left out, because a direct surface needs a single grid"}}},
+       {"-o,--output", required(writes(c.output, {Origin::map, Origin::anchors, Origin::machine})),
+        "The result: a map file, for belts an anchors file, for a drawing a plotter file; - "
+        "is standard output"},
+       {"--surface",
+        {c.surface, {"residual", "direct"}},
+        "residual: a smooth correction of the calibrated machine; direct: splines "
+        "through the lengths, without a machine",
+        chains,
+        "to be left out, because belts and drawings have no surface",
+        {{one_grid,
+          "\"residual\", because a direct surface needs chain lengths at known places, from a "
+          "single grid"}},
+        "residual"},
+       {"--ends",
+        {c.ends, files::words_of(files::kEndConditions)},
+        "End condition of direct splines",
+        direct,
+        "to be left out without --surface direct"}});
   add_outside_options(verb, c.outside, "continued by default");
   verb.has({{"--plain",
              c.plain,
@@ -255,8 +245,7 @@ Example:
              no_drawing,
              "to be left out for a test drawing, whose file describes the plotter",
              {{residual, "to be left out for a direct surface, whose tool error is unknown"}}},
-            {"-v,--verbose",
-             c.verbose,
+            {"-v,--verbose", c.verbose,
              "Also print the tables: settings, errors at left-out points, each distance, left "
              "against right"},
             without_row(c.without),

@@ -35,9 +35,7 @@ struct FitCommand {
 
 /// Writes the result to its file, `json` to standard output where it is asked for, and the document
 /// to standard error.
-void write_fitted(const FitCommand& command,
-                  const std::string& text,
-                  const std::string& json,
+void write_fitted(const FitCommand& command, const std::string& text, const std::string& json,
                   const Document& document);
 
 /// `files` are a chaintrue_belts file, holes that a four-belt machine cut, or both. These return

@@ -72,8 +72,7 @@ std::optional<AnchorsAndError> fit_again(const MeasuredBelts& belts,
 /// The error to expect of such a session. The noise that its fit finds is a sample of the simulated
 /// noise, and the error scales with it, so it is corrected for that. Empty without a fit.
 std::optional<double> expected_of_places(const MeasuredBelts& belts,
-                                         const std::vector<grid::BeltHoles>& cut,
-                                         double noise_mm) {
+                                         const std::vector<grid::BeltHoles>& cut, double noise_mm) {
   const auto again = fit_again(belts, cut);
   if (!again || !again->error || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
   return again->error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
@@ -90,11 +89,9 @@ std::optional<double> expected_when_compensated(const files::FittedAnchors& foun
 
 /// `belts` (without points if only holes were fitted) and `cut` are the input of `found`; `error`
 /// is its error_of_belts(). `wish_mm` is the rms error of the tool over the measured part.
-std::string belts_wish_sentence(const MeasuredBelts& belts,
-                                const std::vector<grid::BeltHoles>& cut,
+std::string belts_wish_sentence(const MeasuredBelts& belts, const std::vector<grid::BeltHoles>& cut,
                                 const files::FittedAnchors& found,
-                                const std::optional<BeltsError>& error,
-                                double wish_mm) {
+                                const std::optional<BeltsError>& error, double wish_mm) {
   const std::string wish = fmt::format("Your target is {:g} mm: ", wish_mm);
   if (!error) return wish + "these readings do not show whether it is reached.";
   if (error->expected.rms_mm <= wish_mm)
@@ -137,12 +134,10 @@ struct BeltFiles {
   std::vector<grid::BeltHoles> holes;
 };
 
-void read_belts_file(const InputFile& file,
-                     const std::vector<std::size_t>& without,
+void read_belts_file(const InputFile& file, const std::vector<std::size_t>& without,
                      BeltFiles& all) {
   if (all.belts) {
-    refuse(file.name,
-           "a second file of belts",
+    refuse(file.name, "a second file of belts",
            "one file of belts and any number of chaintrue_holes; each session has its own fit");
   }
   all.belts = load_belts(file, "a fit", without).belts;
@@ -150,17 +145,14 @@ void read_belts_file(const InputFile& file,
 }
 
 void read_holes_file(const InputFile& file, const files::TapeOptions& tape, BeltFiles& all) {
-  require_kind(file,
-               {FileKind::belts, FileKind::holes, FileKind::belt_holes},
+  require_kind(file, {FileKind::belts, FileKind::holes, FileKind::belt_holes},
                "a single file of belts is fitted");
   files::ReadHoles read = files::parse_holes(file.text, file.name, {.tape = tape});
   print_warnings(read.warnings);
   if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)
     read.belt_machine = all.belts->machine;
   if (!read.belt_machine) {
-    refuse(file.name,
-           "/machine",
-           read.holes.machine ? "a machine on two chains" : "",
+    refuse(file.name, "/machine", read.holes.machine ? "a machine on two chains" : "",
            "the machine on four belts that cut the holes, with x_mm and y_mm of the anchors then "
            "in force");
   }
@@ -216,9 +208,8 @@ int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files)
       anchors_document({found.fit, holes, &belts, all.indices}, found.name, command.output);
   if (command.wish_mm) {
     auto& remarks = document.remarks.blocks;
-    remarks.insert(
-        remarks.begin(),
-        Paragraph{belts_wish_sentence(belts, all.holes, found, error, *command.wish_mm)});
+    remarks.insert(remarks.begin(), Paragraph{belts_wish_sentence(belts, all.holes, found, error,
+                                                                  *command.wish_mm)});
   }
   write_fitted(command, text, text, document);
   if (!not_to_paste(found.fit, error).empty()) return kCheckFailed;

@@ -42,8 +42,7 @@ PlotterSettingWords plotter_setting_words(std::size_t parameter) {
   return kWords[parameter];
 }
 
-double largest_bow(const TestDrawing& drawing,
-                   const DrawingFit& fit,
+double largest_bow(const TestDrawing& drawing, const DrawingFit& fit,
                    double FittedMeasure::*value) {
   double most = 0.0;
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
@@ -59,11 +58,8 @@ std::string sentence_of_settings(const DrawingFit& fit) {
   for (std::size_t k = 0; k < fit.settings.size(); ++k) {
     const PlotterSetting& own = fit.settings[k];
     if (!own.is_off) continue;
-    named += fmt::format("{}the {}, by {:+.2f} +- {:.2f} {}",
-                         named.empty() ? "" : "; ",
-                         plotter_setting_words(k).noun,
-                         own.found - own.stated,
-                         own.sigma,
+    named += fmt::format("{}the {}, by {:+.2f} +- {:.2f} {}", named.empty() ? "" : "; ",
+                         plotter_setting_words(k).noun, own.found - own.stated, own.sigma,
                          plotter_setting_words(k).unit);
   }
   if (named.empty()) return "No setting is off significantly.";
@@ -81,8 +77,7 @@ Table table_of_settings(const DrawingFit& fit) {
     const PlotterSettingWords words = plotter_setting_words(k);
     table.rows.push_back(report::row_with_flag(
         {fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
-        own.is_off,
-        "off"));
+        own.is_off, "off"));
   }
   return table;
 }
@@ -96,8 +91,7 @@ Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     const FittedMeasure& own = fit.measures[i];
     table.rows.push_back(report::row_with_flag(
-        {grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
-        own.rejected,
+        {grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm}, own.rejected,
         "left out"));
   }
   return table;
@@ -117,11 +111,9 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
     document.remarks.say(
         fmt::format("{} was left out: {:.1f} mm was read, but the others predict {:.1f} "
                     "mm. Measure it again.",
-                    grid::words_of(drawing, i),
-                    fit.measures[i].measured_mm,
+                    grid::words_of(drawing, i), fit.measures[i].measured_mm,
                     fit.measures[i].found_mm),
-        Detail::always,
-        true);
+        Detail::always, true);
   }
   document.sections.push_back({"Settings", {table_of_settings(fit)}});
   Section measures{"Measures", {table_of_measures(drawing, fit)}};

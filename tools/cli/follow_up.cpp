@@ -136,10 +136,7 @@ bool is_diagnosis_of(const Diagnosis& found, const std::vector<const MeasuredHol
     distances += sets[k]->distances.size();
   }
   return found.distances.size() == distances &&
-         std::equal(found.holes.begin(),
-                    found.holes.end(),
-                    holes.begin(),
-                    holes.end(),
+         std::equal(found.holes.begin(), found.holes.end(), holes.begin(), holes.end(),
                     [&](const auto& pictured, const grid::Hole& hole) {
                       return pictured.name == hole.name &&
                              std::hypot(pictured.commanded.x_mm - hole.commanded.x_mm,
@@ -148,10 +145,8 @@ bool is_diagnosis_of(const Diagnosis& found, const std::vector<const MeasuredHol
                     });
 }
 
-std::string distance_lines(const Diagnosis& found,
-                           const std::vector<const MeasuredHoles*>& sets,
-                           std::size_t position,
-                           bool is_json) {
+std::string distance_lines(const Diagnosis& found, const std::vector<const MeasuredHoles*>& sets,
+                           std::size_t position, bool is_json) {
   const MeasuredHoles& set = *sets[position];
   std::vector<Fields> holes, distances;
   int number = 0;

@@ -36,9 +36,7 @@ bool is_diagnosis_of(const Diagnosis& found, const std::vector<const MeasuredHol
 
 /// Holes to cut, with unused names, and distances without values, for the set at this position. If
 /// none is in this set, JSON is empty, and a table has only its two headers.
-std::string distance_lines(const Diagnosis& found,
-                           const std::vector<const MeasuredHoles*>& sets,
-                           std::size_t position,
-                           bool is_json);
+std::string distance_lines(const Diagnosis& found, const std::vector<const MeasuredHoles*>& sets,
+                           std::size_t position, bool is_json);
 
 }  // namespace chaintrue::cli

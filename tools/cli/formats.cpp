@@ -35,9 +35,8 @@ int run_formats(Verb verb, const FormatsCommand& command) {
     say_next({"formats", files::described_formats().front()});
     return kDone;
   }
-  fmt::print("{}",
-             command.schema ? files::write_format_schema(command.name)
-                            : files::write_format_page(command.name));
+  fmt::print("{}", command.schema ? files::write_format_schema(command.name)
+                                  : files::write_format_page(command.name));
   if (!command.schema) say_next({"formats", command.name, "--schema"});
   return kDone;
 }

@@ -21,9 +21,7 @@ constexpr files::Range kToleranceMm{"mm", 1e-4, 100.0};
 void require_gcode(const InputFile& file) {
   const model::PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
   if (gcode::firmware(plotter).reads_gcode) return;
-  refuse(file.name,
-         "/set/firmware",
-         std::string(model::name(plotter)),
+  refuse(file.name, "/set/firmware", std::string(model::name(plotter)),
          "a plotter that accepts G-code, \"fluidnc\" or \"marlin\"; this one draws pictures, "
          "accurately once the lines from chaintrue export plotter are typed in");
 }
@@ -44,24 +42,17 @@ void check_home(const GcodeOptions& options, OptionProblems& problems) {
   problems.take_from([&options] { (void)options.home_mm(); });
 }
 
-Verb add(Verb parent,
-         const std::shared_ptr<GcodeOptions>& options,
-         const char* name,
-         const char* help,
-         const char* footer,
-         GcodeVerb* action) {
+Verb add(Verb parent, const std::shared_ptr<GcodeOptions>& options, const char* name,
+         const char* help, const char* footer, GcodeVerb* action) {
   Verb verb = parent.add_verb(name, help, footer);
   GcodeOptions& c = *options;
   verb.has(
-      {{"--home",
-        without_default(c.home),
+      {{"--home", without_default(c.home),
         "Home on the sheet, X,Y in mm: added to the program's coordinates"},
        {"--block-delete", c.words.skip_deletable_blocks, "Leave out lines that begin with a slash"},
-       {"--tools-have-no-diameter",
-        c.words.tools_have_no_diameter,
+       {"--tools-have-no-diameter", c.words.tools_have_no_diameter,
         "Ignore G41 and G42, which are refused otherwise"},
-       {"--home-is-zero",
-        c.words.home_is_zero,
+       {"--home-is-zero", c.words.home_is_zero,
         "G28 and G30 go to the machine's zero, which is the program's"},
        {"--step-budget",
         {c.words.step_budget, {"", 1.0, 1e12}},
@@ -83,8 +74,7 @@ void add_map_options(Verb verb, GcodeOptions& options, Value map) {
 void add_machine_options(Verb verb, GcodeOptions& options, Value map) {
   add_map_options(verb, options, std::move(map));
   verb.has(
-      {{"--machine",
-        reads(options.machine),
+      {{"--machine", reads(options.machine),
         "A machine file with the controller's settings, if they are not those stored in the map"},
        {"--settings",
         reads(options.settings),
@@ -121,11 +111,8 @@ void add_limits(Verb verb, GcodeOptions& options) {
              "Refuse corrections that change faster than this [mm/mm]",
              facts::target,
              kNothingIsWritten},
-            {"--keep-rapids-whole",
-             options.limits.keep_rapids_whole,
-             "Correct only the ends of rapids",
-             facts::target,
-             kNothingIsWritten}});
+            {"--keep-rapids-whole", options.limits.keep_rapids_whole,
+             "Correct only the ends of rapids", facts::target, kNothingIsWritten}});
   add_option_check(verb, options, check_limits);
 }
 
@@ -146,22 +133,17 @@ void add_gcode(Verb app) {
       app.add_verb("gcode", "Check, explain and compensate G-code; chain lengths along its path");
   gcode.require_verb();
 
-  Verb check = add(gcode,
-                   options,
-                   "check",
-                   "List what the program does and what would go wrong, by line",
-                   R"(Example:
+  Verb check =
+      add(gcode, options, "check", "List what the program does and what would go wrong, by line",
+          R"(Example:
   build/chaintrue gcode check fixtures/gcode/bracket.nc)",
-                   run_gcode_check);
+          run_gcode_check);
   check.has({{"file", required(reads(c.program)), "G-code; - is standard input"}});
   add_machine_options(check, c, reads(c.map));
   add_limits(check, c);
   check.has({largest_correction_row(c), {"--json", c.json, "Print JSON instead of text"}});
 
-  Verb lengths = add(gcode,
-                     options,
-                     "lengths",
-                     "Print the chain lengths along the path",
+  Verb lengths = add(gcode, options, "lengths", "Print the chain lengths along the path",
                      R"(Example:
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
   build/chaintrue gcode lengths fixtures/gcode/bracket.nc --map map.json -o lengths.csv)",
@@ -174,9 +156,7 @@ void add_gcode(Verb app) {
                 "Largest distance between places along a move"},
                {"--json", c.json, "Print one JSON object per line instead of CSV"}});
 
-  Verb compensate = add(gcode,
-                        options,
-                        "compensate",
+  Verb compensate = add(gcode, options, "compensate",
                         "Rewrite a program so that the tool follows its coordinates",
                         R"(Example:
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
@@ -184,26 +164,20 @@ void add_gcode(Verb app) {
                         run_gcode_compensate);
   compensate.has({{"file", required(reads(c.program)), "G-code; - is standard input"}});
   add_machine_options(compensate, c, required(reads(c.map)));
-  compensate.has({{"-o,--output",
-                   required(writes(c.output, {Origin::program})),
+  compensate.has({{"-o,--output", required(writes(c.output, {Origin::program})),
                    "The compensated program; - is standard output"},
-                  {"--report",
-                   writes(c.report, {Origin::page}),
+                  {"--report", writes(c.report, {Origin::page}),
                    "Write a page with the path before and after, coloured by the correction"}});
   add_limits(compensate, c);
   compensate.has({largest_correction_row(c),
-                  {"--no-verify",
-                   c.no_verify,
+                  {"--no-verify", c.no_verify,
                    "Do not run the output on the simulated machine before it is written"},
-                  {"--json",
-                   c.json,
+                  {"--json", c.json,
                    "Print the result as JSON, with each piece of the path: line, 1 for a rapid, "
                    "start and end, correction at both (x, y, mm)"}});
 
   Verb verify = add(
-      gcode,
-      options,
-      "verify",
+      gcode, options, "verify",
       "Run a program on a simulated controller and machine; exit code 1 if the tool strays too far",
       R"(Example:
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
@@ -216,9 +190,7 @@ void add_gcode(Verb app) {
   add_limits(verify, c);
   verify.has({{"--json", c.json, "Print JSON instead of text"}});
 
-  Verb explain = add(gcode,
-                     options,
-                     "explain",
+  Verb explain = add(gcode, options, "explain",
                      "Print the state before and after a line, its moves and their corrections",
                      R"(Example:
   build/chaintrue gcode explain fixtures/gcode/bracket.nc:12)",

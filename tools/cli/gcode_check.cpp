@@ -28,38 +28,20 @@ void print_survey(const gcode::Survey& survey, bool json) {
         "{{\"lines\": {}, \"rapids\": {}, \"feeds\": {}, \"arcs\": {}, \"probes\": {}, "
         "\"path_mm\": {:.3f}, \"x_mm\": [{:.3f}, {:.3f}], \"y_mm\": [{:.3f}, {:.3f}], \"z_mm\": "
         "[{:.3f}, {:.3f}], \"feed_mm_per_min\": [{:.3f}, {:.3f}]}}\n",
-        survey.program.lines,
-        survey.rapids,
-        survey.feeds,
-        survey.arcs,
-        survey.probes,
-        survey.path_mm,
-        box.least.x_mm,
-        box.most.x_mm,
-        box.least.y_mm,
-        box.most.y_mm,
-        box.least.z_mm,
-        box.most.z_mm,
-        slowest,
-        fastest);
+        survey.program.lines, survey.rapids, survey.feeds, survey.arcs, survey.probes,
+        survey.path_mm, box.least.x_mm, box.most.x_mm, box.least.y_mm, box.most.y_mm,
+        box.least.z_mm, box.most.z_mm, slowest, fastest);
     return;
   }
   fmt::print("{} lines: {} rapids, {} straight cuts, {} arcs; {:.1f} m of path\n",
-             survey.program.lines,
-             survey.rapids,
-             survey.feeds,
-             survey.arcs,
+             survey.program.lines, survey.rapids, survey.feeds, survey.arcs,
              survey.path_mm / 1000.0);
   if (!survey.box) {
     fmt::print("the program does not move in X or Y\n");
     return;
   }
   fmt::print("X {:.3f} to {:.3f} mm, Y {:.3f} to {:.3f} mm, Z {:.3f} to {:.3f} mm\n",
-             box.least.x_mm,
-             box.most.x_mm,
-             box.least.y_mm,
-             box.most.y_mm,
-             box.least.z_mm,
+             box.least.x_mm, box.most.x_mm, box.least.y_mm, box.most.y_mm, box.least.z_mm,
              box.most.z_mm);
   if (survey.slowest_mm_per_min) fmt::print("feed {:.6g} to {:.6g} mm/min\n", slowest, fastest);
 }
@@ -76,14 +58,9 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
   if (rows <= kMostRows) return rows;
-  refuse("command line",
-         "--every-mm",
-         fmt::format("{}", options.every_mm),
+  refuse("command line", "--every-mm", fmt::format("{}", options.every_mm),
          fmt::format("at least {:.2g} mm: {:.1f} m of path would give {:.1e} rows, about {:.0f} GB",
-                     survey->path_mm / kMostRows,
-                     survey->path_mm / 1000.0,
-                     rows,
-                     rows * 1e-7));
+                     survey->path_mm / kMostRows, survey->path_mm / 1000.0, rows, rows * 1e-7));
 }
 
 /// The program next to the compensated one, or its first line in words.
@@ -99,17 +76,15 @@ void say_next_of_program(const GcodeOptions& options) {
 
 /// With a map: all problems that compensating would report; its output is discarded. \param found
 /// by the survey
-int check_compensation(const GcodeMachine& machine,
-                       const GcodeOptions& options,
-                       gcode::LineSource source,
-                       const gcode::Survey& survey,
+int check_compensation(const GcodeMachine& machine, const GcodeOptions& options,
+                       gcode::LineSource source, const gcode::Survey& survey,
                        const Findings& found) {
   gcode::CompensateOptions settings = compensate_options(options, machine);
   gcode::CutPlaces cuts;
-  settings.on_command =
-      [&cuts](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
-        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
-      };
+  settings.on_command = [&cuts](const gcode::Move& move, const gcode::PathSample& from,
+                                const gcode::PathSample& to) {
+    if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+  };
   gcode::Compensator compensator(machine.corrector, settings, [](std::string_view) {});
   const auto outcome = compensator.run(source, options.dialect());
   print_survey(survey, options.json);
@@ -121,8 +96,7 @@ int check_compensation(const GcodeMachine& machine,
   }
   if (!outcome) return report(options.program, outcome.error());
   if (options.json || code != kDone) return code;
-  fmt::print("the largest correction is {:.2f} mm, on line {}\n",
-             outcome->largest_correction_mm,
+  fmt::print("the largest correction is {:.2f} mm, on line {}\n", outcome->largest_correction_mm,
              outcome->largest_correction_line);
   // The error of a two-chain map is reported by fit; that of anchors only along cuts.
   if (machine.target.as<CompensationMap>() == nullptr)
@@ -156,8 +130,8 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
     print_survey(*survey, options.json);
     code = report(options.program, findings);
   } else {
-    code = check_compensation(
-        *machine, options, text.open({"its compensation", steps, steps}), *survey, findings);
+    code = check_compensation(*machine, options, text.open({"its compensation", steps, steps}),
+                              *survey, findings);
   }
   if (code == kDone) say_next_of_program(options);
   return code;
@@ -183,23 +157,16 @@ int write_lengths(const Target& target, const GcodeOptions& options) {
   double written = 0.0;
   const auto write = [&](const gcode::PathLengths& place) {
     progress_is(std::min(++written, rows), rows);
-    output.write(fmt::format(fmt::runtime(row),
-                             place.line,
-                             gcode::name(place.kind),
-                             place.place.x_mm,
-                             place.place.y_mm,
-                             place.place.z_mm,
-                             place.answer.lengths_mm[0],
-                             place.answer.lengths_mm[1],
-                             place.answer.sigma.left_mm,
-                             place.answer.sigma.right_mm,
-                             place.kind == gcode::MoveKind::rapid
-                                 ? std::string(no_feed)
-                                 : fmt::format("{:.3f}", place.feed_mm_per_min)));
+    output.write(fmt::format(
+        fmt::runtime(row), place.line, gcode::name(place.kind), place.place.x_mm, place.place.y_mm,
+        place.place.z_mm, place.answer.lengths_mm[0], place.answer.lengths_mm[1],
+        place.answer.sigma.left_mm, place.answer.sigma.right_mm,
+        place.kind == gcode::MoveKind::rapid ? std::string(no_feed)
+                                             : fmt::format("{:.3f}", place.feed_mm_per_min)));
   };
   Findings findings;
-  const auto outcome = gcode::path_lengths(
-      source, options.dialect(), *target.lengths, options.every_mm, write, findings);
+  const auto outcome = gcode::path_lengths(source, options.dialect(), *target.lengths,
+                                           options.every_mm, write, findings);
   if (!outcome) return report(options.program, outcome.error());
   const int code = report(options.program, findings);
   if (code != kDone) {

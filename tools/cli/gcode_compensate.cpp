@@ -27,14 +27,12 @@ struct Proof {
   double largest_mm = 0.0;
 };
 
-Proof prove(const GcodeOptions& options,
-            const GcodeMachine& machine,
-            const GcodeText& text,
+Proof prove(const GcodeOptions& options, const GcodeMachine& machine, const GcodeText& text,
             files::PendingFile& output) {
   auto original = text.open({"the result on the simulated machine", 2, 2});
   auto written = written_so_far(output);
-  const auto outcome = gcode::verify(
-      original, written, machine.corrector, options.dialect(), verify_options(options, machine));
+  const auto outcome = gcode::verify(original, written, machine.corrector, options.dialect(),
+                                     verify_options(options, machine));
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
 }
@@ -58,33 +56,25 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
   }
   if (!proof.fault.empty()) {
     return fmt::format("Not safe to run and not written: on a simulated {} controller, {}.",
-                       controller,
-                       proof.fault);
+                       controller, proof.fault);
   }
   return fmt::format(
       "The file is safe to run: on a simulated {} controller the tool stays within {:.3f} mm of "
       "the path (tolerance {:g} mm), at the intended feeds, with every other word in the right "
       "place.",
-      controller,
-      proof.largest_mm,
-      options.limits.tolerance_mm);
+      controller, proof.largest_mm, options.limits.tolerance_mm);
 }
 
-report::PathPiece drawn(const gcode::Move& move,
-                        const gcode::PathSample& from,
+report::PathPiece drawn(const gcode::Move& move, const gcode::PathSample& from,
                         const gcode::PathSample& to) {
   const auto correction = [](const gcode::PathSample& sample) {
     return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
                               sample.command.y_mm - sample.target.y_mm};
   };
-  return {move.line,
-          move.kind == gcode::MoveKind::rapid,
-          from.target.x_mm,
-          from.target.y_mm,
-          to.target.x_mm,
-          to.target.y_mm,
-          correction(from),
-          correction(to)};
+  return {move.line,        move.kind == gcode::MoveKind::rapid,
+          from.target.x_mm, from.target.y_mm,
+          to.target.x_mm,   to.target.y_mm,
+          correction(from), correction(to)};
 }
 
 /// The map that export wrote from this one, for a controller with the numbers typed in; empty if
@@ -102,8 +92,7 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
     if (const std::string after = map_after(options.map); !after.empty()) {
       say("Have you typed in the numbers for {0}? {1} is for the controller without them; with "
           "them, compensate with {0}.",
-          after,
-          options.map);
+          after, options.map);
     }
   }
   const gcode::Firmware* firmware = &machine.corrector.firmware();
@@ -116,8 +105,7 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
         "--home X,Y.");
   } else {
     say("Its coordinates include home at {:g}, {:g}: move home back to 0, 0 before you run it.",
-        home.x_mm,
-        home.y_mm);
+        home.x_mm, home.y_mm);
   }
 }
 
@@ -129,49 +117,32 @@ struct Compensated {
   report::PathReport picture;  ///< filled for --report and --json
 };
 
-std::string json_of(const Compensated& result,
-                    const gcode::Findings& findings,
+std::string json_of(const Compensated& result, const gcode::Findings& findings,
                     const GcodeOptions& options) {
   std::vector<std::string> notes, pieces;
   for (const gcode::Note& note : findings.notes) {
-    notes.push_back(fmt::format("{{\"line\": {}, \"name\": {}, \"sentence\": {}}}",
-                                note.line,
-                                in_quotes(note.name),
-                                in_quotes(note.sentence)));
+    notes.push_back(fmt::format("{{\"line\": {}, \"name\": {}, \"sentence\": {}}}", note.line,
+                                in_quotes(note.name), in_quotes(note.sentence)));
   }
   for (const report::PathPiece& piece : result.picture.pieces()) {
-    pieces.push_back(fmt::format("[{}, {}, {}, {}, {}, {}, {}, {}, {}, {}]",
-                                 piece.line,
-                                 piece.is_rapid ? 1 : 0,
-                                 piece.x0_mm,
-                                 piece.y0_mm,
-                                 piece.x1_mm,
-                                 piece.y1_mm,
-                                 piece.correction0.x_mm,
-                                 piece.correction0.y_mm,
-                                 piece.correction1.x_mm,
-                                 piece.correction1.y_mm));
+    pieces.push_back(fmt::format("[{}, {}, {}, {}, {}, {}, {}, {}, {}, {}]", piece.line,
+                                 piece.is_rapid ? 1 : 0, piece.x0_mm, piece.y0_mm, piece.x1_mm,
+                                 piece.y1_mm, piece.correction0.x_mm, piece.correction0.y_mm,
+                                 piece.correction1.x_mm, piece.correction1.y_mm));
   }
   const gcode::CompensateSummary& summary = result.summary;
   return fmt::format(
       "{{\"moves\": {}, \"commands\": {}, \"path_mm\": {}, \"largest_correction_mm\": {}, "
       "\"largest_correction_line\": {}, \"strays_mm\": {}, {},\n\"notes\": [{}],\n"
       "\"pieces\": [{}]}}\n",
-      summary.moves,
-      summary.commands,
-      summary.path_mm,
-      summary.largest_correction_mm,
+      summary.moves, summary.commands, summary.path_mm, summary.largest_correction_mm,
       summary.largest_correction_line,
       options.no_verify ? "null" : fmt::format("{:.6f}", result.proof.largest_mm),
-      as_members(result.promised),
-      fmt::join(notes, ", "),
-      fmt::join(pieces, ",\n"));
+      as_members(result.promised), fmt::join(notes, ", "), fmt::join(pieces, ",\n"));
 }
 
 /// The page of --report.
-std::string page_of(Compensated& result,
-                    const GcodeMachine& machine,
-                    const GcodeOptions& options,
+std::string page_of(Compensated& result, const GcodeMachine& machine, const GcodeOptions& options,
                     const std::optional<grid::Provenance>& made_by) {
   const bool holds = result.proof.fault.empty();
   const gcode::CompensateSummary& summary = result.summary;
@@ -211,8 +182,7 @@ std::string page_of(Compensated& result,
 }
 
 /// Runs the compensator; its problems are printed. \throws GcodeRefused
-gcode::CompensateSummary compensated(gcode::Compensator& compensator,
-                                     gcode::LineSource source,
+gcode::CompensateSummary compensated(gcode::Compensator& compensator, gcode::LineSource source,
                                      const GcodeOptions& options) {
   const auto summary = compensator.run(source, options.dialect());
   const gcode::Findings& findings = compensator.findings();
@@ -229,36 +199,26 @@ gcode::CompensateSummary compensated(gcode::Compensator& compensator,
 }
 
 /// What was done and, if it does not hold, why it is not written. \throws Failed
-void report_result(const Compensated& result,
-                   const GcodeMachine& machine,
+void report_result(const Compensated& result, const GcodeMachine& machine,
                    const GcodeOptions& options) {
   const char* controller = machine.corrector.firmware().name;
   const auto& [summary, proof, promised, picture] = result;
   say("{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
-      summary.blocks,
-      summary.moves,
-      summary.path_mm / 1000.0,
-      summary.commands,
-      controller,
-      summary.largest_correction_mm,
-      summary.largest_correction_line);
+      summary.blocks, summary.moves, summary.path_mm / 1000.0, summary.commands, controller,
+      summary.largest_correction_mm, summary.largest_correction_line);
   if (!proof.fault.empty()) {
     say("{}: run on a simulated {} controller, the compensated program is not within {} mm: "
         "{}\nthe program is not written; try another --tolerance-mm, or --no-verify to inspect "
         "that line",
-        files::name_in_messages(options.program),
-        controller,
-        options.limits.tolerance_mm,
+        files::name_in_messages(options.program), controller, options.limits.tolerance_mm,
         proof.fault);
     throw Failed("", "not_held", proof.fault, kCheckFailed);
   }
   if (!options.no_verify) {
     say("run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
         "tolerance {} mm",
-        controller,
-        proof.largest_mm,
-        options.limits.tolerance_mm);
+        controller, proof.largest_mm, options.limits.tolerance_mm);
   }
   say_lines(in_words(promised));
 }
@@ -271,15 +231,15 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   settings.made_by = made_by(options.verb);
   Compensated result;
   gcode::CutPlaces cuts;
-  settings.on_command =
-      [&](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
-        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
-        if ((options.json || !options.report.empty()) && move.names_xy)
-          result.picture.add(drawn(move, from, to));
-      };
+  settings.on_command = [&](const gcode::Move& move, const gcode::PathSample& from,
+                            const gcode::PathSample& to) {
+    if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+    if ((options.json || !options.report.empty()) && move.names_xy)
+      result.picture.add(drawn(move, from, to));
+  };
   files::PendingFile output(options.output);
-  gcode::Compensator compensator(
-      machine.corrector, settings, [&](std::string_view bytes) { output.write(bytes); });
+  gcode::Compensator compensator(machine.corrector, settings,
+                                 [&](std::string_view bytes) { output.write(bytes); });
   result.summary = compensated(compensator, std::move(source), options);
   if (!options.no_verify) result.proof = prove(options, machine, text, output);
   result.promised = promised_along(

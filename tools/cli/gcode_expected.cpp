@@ -12,8 +12,7 @@ namespace {
 using gcode::ErrorAlong;
 
 std::optional<double> with_path(const std::optional<gcode::ExpectedError>& map,
-                                const ErrorAlong gcode::ExpectedError::*part,
-                                double path_mm) {
+                                const ErrorAlong gcode::ExpectedError::*part, double path_mm) {
   if (!map || !((*map.*part).length_mm > 0.0)) return std::nullopt;
   return (*map.*part).rms_mm + path_mm;
 }
@@ -32,8 +31,7 @@ std::optional<double> PromisedError::outside_mm() const {
   return with_path(map, &gcode::ExpectedError::outside, path_mm);
 }
 
-PromisedError promised_along(const gcode::CutPlaces& cuts,
-                             const GcodeMachine& machine,
+PromisedError promised_along(const gcode::CutPlaces& cuts, const GcodeMachine& machine,
                              double path_mm) {
   const auto* found = machine.target.as<files::FittedAnchors>();
   if (found == nullptr || found->fit.scale)
@@ -49,8 +47,7 @@ std::string in_words(const PromisedError& error) {
   if (const auto measured = error.measured_mm()) {
     const ErrorAlong& along = error.map->measured;
     words += fmt::format("Expect cuts within about {} mm ({} at worst, in line {}).\n",
-                         about_mm(*measured),
-                         about_mm(along.largest_mm + error.path_mm),
+                         about_mm(*measured), about_mm(along.largest_mm + error.path_mm),
                          along.weakest_line);
   }
   if (const auto outside = error.outside_mm()) {
@@ -58,9 +55,7 @@ std::string in_words(const PromisedError& error) {
     words += fmt::format(
         "{:.1f} m of cuts are outside the measured part: expect those within about {} mm ({} at "
         "worst, in line {}).\n",
-        along.length_mm / 1000.0,
-        about_mm(*outside),
-        about_mm(along.largest_mm + error.path_mm),
+        along.length_mm / 1000.0, about_mm(*outside), about_mm(along.largest_mm + error.path_mm),
         along.weakest_line);
   }
   if (error.is_without_scale && !words.empty()) {

@@ -29,16 +29,11 @@ struct LineEvents final : gcode::Sink {
 void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
   const BedPoint target{move.to.x_mm, move.to.y_mm};
   fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n",
-             gcode::name(move.kind),
-             target.x_mm,
-             target.y_mm,
-             move.to.z_mm,
+             gcode::name(move.kind), target.x_mm, target.y_mm, move.to.z_mm,
              gcode::length_mm(move));
   if (move.arc) {
     fmt::print("    centre X{:.4f} Y{:.4f}, radius {:.4f} mm, {:.4f} degrees\n",
-               move.arc->centre.x_mm,
-               move.arc->centre.y_mm,
-               move.arc->start_radius_mm,
+               move.arc->centre.x_mm, move.arc->centre.y_mm, move.arc->start_radius_mm,
                move.arc->sweep_rad * 57.29577951308232);
   }
   if (machine == nullptr) return;
@@ -49,16 +44,11 @@ void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
     return;
   }
   fmt::print("    chains: left {:.4f} mm (sigma {:.3f}), right {:.4f} mm (sigma {:.3f})\n",
-             answer->lengths_mm[0],
-             answer->sigma.left_mm,
-             answer->lengths_mm[1],
+             answer->lengths_mm[0], answer->sigma.left_mm, answer->lengths_mm[1],
              answer->sigma.right_mm);
   fmt::print("    command for {}: X{:.4f} Y{:.4f}, corrected by X{:+.4f} Y{:+.4f} mm\n",
-             machine->corrector.firmware().name,
-             command->x_mm,
-             command->y_mm,
-             command->x_mm - target.x_mm,
-             command->y_mm - target.y_mm);
+             machine->corrector.firmware().name, command->x_mm, command->y_mm,
+             command->x_mm - target.x_mm, command->y_mm - target.y_mm);
 }
 
 /// `machine` is null without a map.

@@ -42,11 +42,9 @@ std::string sentence_of(const std::vector<gcode::Problem>& problems) {
 void check_limits(const GcodeOptions& options, OptionProblems& problems) {
   const double least_mm = gcode::least_tolerance_mm(options.limits.decimals);
   if (options.map.empty() || options.limits.tolerance_mm > least_mm) return;
-  problems.add("--tolerance-mm",
-               fmt::format("{}", options.limits.tolerance_mm),
+  problems.add("--tolerance-mm", fmt::format("{}", options.limits.tolerance_mm),
                fmt::format("more than {:.2g} mm, the rounding to {} decimals; or more --decimals",
-                           least_mm,
-                           options.limits.decimals),
+                           least_mm, options.limits.decimals),
                ProblemKind::out_of_range);
 }
 

@@ -173,8 +173,7 @@ struct PromisedError {
 
 /// The uncertainty of the machine's map or anchors for cuts at these places.
 [[nodiscard]] PromisedError promised_along(const gcode::CutPlaces& cuts,
-                                           const GcodeMachine& machine,
-                                           double path_mm);
+                                           const GcodeMachine& machine, double path_mm);
 /// Sentences, one per line; empty if nothing is cut or known.
 std::string in_words(const PromisedError& error);
 /// For --json, as members of an object: `"expected_mm": 0.28, ...`; null if unknown.

@@ -90,12 +90,10 @@ std::vector<files::NamedSetting> settings_of(const BeltMachine& machine) {
   return settings;
 }
 
-GcodeController controller_of(const GcodeOptions& options,
-                              const Target& target,
+GcodeController controller_of(const GcodeOptions& options, const Target& target,
                               const files::FittedAnchors&) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
-    refuse("--controller",
-           options.controller,
+    refuse("--controller", options.controller,
            "\"maslow4\", or to be left out, because anchors of four belts belong to a Maslow 4");
   }
   const BeltMachine believed = options.machine.empty()
@@ -112,9 +110,7 @@ GcodeController controller_of(const GcodeOptions& options,
 interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
   const model::DrawingArea& area = set.machine.area;
   const BedPoint& by = set.pins_middle;
-  return {area.left_mm + by.x_mm,
-          area.right_mm + by.x_mm,
-          area.bottom_mm + by.y_mm,
+  return {area.left_mm + by.x_mm, area.right_mm + by.x_mm, area.bottom_mm + by.y_mm,
           area.top_mm + by.y_mm};
 }
 
@@ -130,22 +126,18 @@ std::vector<files::NamedSetting> settings_of(const grid::SetPlotter& set) {
 }
 
 /// The present settings of a V-plotter's controller.
-GcodeController controller_of(const GcodeOptions& options,
-                              const Target&,
+GcodeController controller_of(const GcodeOptions& options, const Target&,
                               const grid::KnownPlotter& plotter) {
   const grid::SetPlotter set =
       options.machine.empty() ? plotter.set : load_plotter(open_input(options.machine)).plotter.set;
   if (set.firmware != plotter.set.firmware) {
-    refuse(options.machine,
-           "/set/firmware",
-           std::string(model::name(set.firmware)),
+    refuse(options.machine, "/set/firmware", std::string(model::name(set.firmware)),
            fmt::format("\"{}\", as in {}", model::name(plotter.set.firmware), options.map));
   }
   const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
   if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
   if (!options.controller.empty() && options.controller != firmware->name) {
-    refuse("--controller",
-           options.controller,
+    refuse("--controller", options.controller,
            fmt::format("\"{}\", or to be left out, because the plotter's file names its controller",
                        firmware->name));
   }
@@ -168,8 +160,7 @@ Machine believed_machine(const GcodeOptions& options, const CompensationMap& map
     return stated ? with_settings(*stated, now, in_place ? &*in_place : nullptr) : now.read.machine;
   }
   if (stated) return *stated;
-  refuse(options.map,
-         "",
+  refuse(options.map, "",
          fmt::format(
              "a map with a machine; this one has none, so give the controller's settings with {}",
              options.machine_option));
@@ -179,23 +170,18 @@ Machine believed_machine(const GcodeOptions& options, const CompensationMap& map
 void say_other_controller(const CompensationMap& map, ControllerKind kind) {
   if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
   say("The map was measured with the controller {}; --controller {} replaces it.",
-      name_of(map.machine()->controller.kind),
-      name_of(kind));
+      name_of(map.machine()->controller.kind), name_of(kind));
 }
 
-GcodeController controller_of(const GcodeOptions& options,
-                              const Target&,
+GcodeController controller_of(const GcodeOptions& options, const Target&,
                               const CompensationMap& map) {
   if (options.controller == kFourBeltsName) {
-    refuse(options.map,
-           "/file_type",
-           "",
+    refuse(options.map, "/file_type", "",
            "\"chaintrue_anchors\", which chaintrue fit writes for belts; a Maslow 4 uses these "
            "instead of a map");
   }
   if (options.controller == kMarlinName) {
-    refuse("--controller",
-           options.controller,
+    refuse("--controller", options.controller,
            "a router's controller; Marlin is for V-plotters, which use the fit of a drawing "
            "instead of a map");
   }

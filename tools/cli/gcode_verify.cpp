@@ -21,55 +21,33 @@ std::string in_words(const gcode::Deviation& worst) {
   return fmt::format(
       "{:.4f} mm from the intended path, at X{:.3f} Y{:.3f} Z{:.3f} (line {} of the original, line "
       "{} of the file run)",
-      worst.distance_mm,
-      worst.intended.x_mm,
-      worst.intended.y_mm,
-      worst.intended.z_mm,
-      worst.original_line,
-      worst.run_line);
+      worst.distance_mm, worst.intended.x_mm, worst.intended.y_mm, worst.intended.z_mm,
+      worst.original_line, worst.run_line);
 }
 
-void print_json(const gcode::VerifySummary& summary,
-                const gcode::Result<gcode::Deviation>& control,
-                const PromisedError& promised,
-                double tolerance_mm) {
+void print_json(const gcode::VerifySummary& summary, const gcode::Result<gcode::Deviation>& control,
+                const PromisedError& promised, double tolerance_mm) {
   fmt::print(
       "{{\"holds\": {}, \"largest_mm\": {:.6f}, \"feeds_mm\": {:.6f}, \"rapids_mm\": {:.6f}, "
       "\"original_line\": {}, \"tolerance_mm\": {}, \"uncompensated_mm\": {}, "
       "\"tick_overshoot_mm\": {:.6f}, \"commands\": {}, \"places\": {}, \"strays\": {}, {}, "
       "\"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
-      summary.holds(),
-      summary.largest_mm(),
-      summary.feeds.distance_mm,
-      summary.rapids.distance_mm,
-      summary.worst().original_line,
-      tolerance_mm,
-      control ? fmt::format("{:.6f}", control->distance_mm) : "null",
-      summary.tick_overshoot_mm,
-      summary.commands,
-      summary.places,
-      summary.strays,
-      as_members(promised),
-      in_quotes(summary.words_differ),
-      in_quotes(summary.motion_differs),
-      in_quotes(summary.fault));
+      summary.holds(), summary.largest_mm(), summary.feeds.distance_mm, summary.rapids.distance_mm,
+      summary.worst().original_line, tolerance_mm,
+      control ? fmt::format("{:.6f}", control->distance_mm) : "null", summary.tick_overshoot_mm,
+      summary.commands, summary.places, summary.strays, as_members(promised),
+      in_quotes(summary.words_differ), in_quotes(summary.motion_differs), in_quotes(summary.fault));
 }
 
 void print_words(const gcode::VerifySummary& summary,
-                 const gcode::Result<gcode::Deviation>& control,
-                 const PromisedError& promised,
-                 const GcodeOptions& options,
-                 std::string_view controller) {
-  fmt::print("{}: the tool strays at most {}\n",
-             summary.holds() ? "holds" : "does not hold",
+                 const gcode::Result<gcode::Deviation>& control, const PromisedError& promised,
+                 const GcodeOptions& options, std::string_view controller) {
+  fmt::print("{}: the tool strays at most {}\n", summary.holds() ? "holds" : "does not hold",
              in_words(summary.worst()));
   if (summary.holds()) fmt::print("{}", in_words(promised));
   if (!summary.fault.empty()) fmt::print("the first fault: {}\n", summary.fault);
   fmt::print("tolerance {} mm, {} commands, {} places compared, controller {}\n",
-             options.limits.tolerance_mm,
-             summary.commands,
-             summary.places,
-             controller);
+             options.limits.tolerance_mm, summary.commands, summary.places, controller);
   if (control) fmt::print("without compensation: {}\n", in_words(*control));
   if (summary.tick_overshoot_mm > 0.0) {
     fmt::print("Moves overshoot by up to {:.2f} mm and return, as always on this controller.\n",
@@ -126,8 +104,7 @@ std::vector<grid::SourceFile> made_from(const GcodeOptions& options, const Gcode
 }
 
 /// If the file states its sources and one of these is not among them.
-void say_other_sources(const std::vector<grid::SourceFile>& sources,
-                       const GcodeText& run,
+void say_other_sources(const std::vector<grid::SourceFile>& sources, const GcodeText& run,
                        const std::string& name) {
   const std::vector<std::string> hashes = gcode::hashes_in_head(run.open());
   if (hashes.empty()) return;
@@ -135,8 +112,7 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources,
     const std::string beginning = file.sha256.substr(0, gcode::kHashDigits);
     if (grid::contains(hashes, beginning)) continue;
     say("{} was made from another version of {}: compensate again.",
-        files::name_without_folders(name),
-        file.name);
+        files::name_without_folders(name), file.name);
   }
 }
 
@@ -177,11 +153,9 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   } else if (summary->holds()) {
     say_next({"plan", "--check", options.map, "-o", "check.csv"});
   } else if (options.program != "-") {
-    say_next(
-        with_map_words(options,
-                       {"gcode",
-                        "explain",
-                        fmt::format("{}:{}", options.program, summary->worst().original_line)}));
+    say_next(with_map_words(
+        options, {"gcode", "explain",
+                  fmt::format("{}:{}", options.program, summary->worst().original_line)}));
   }
   return summary->holds() ? kDone : kCheckFailed;
 }

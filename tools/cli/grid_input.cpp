@@ -15,13 +15,10 @@ namespace chaintrue::cli {
 
 void add_grid_options(Verb verb, GridInput& input) {
   verb.has(
-      {{"grid",
-        required(reads(input.grid)),
+      {{"grid", required(reads(input.grid)),
         "Measured points: a chaintrue_grid file or a CSV table; - is standard input"},
-       {"--machine",
-        reads(input.machine),
-        "A chaintrue_machine file that replaces the grid's own machine",
-        facts::chains | facts::map,
+       {"--machine", reads(input.machine),
+        "A chaintrue_machine file that replaces the grid's own machine", facts::chains | facts::map,
         "to be left out, because the files of belts and drawings contain their machine"},
        {"--noise-length-mm",
         {input.length_noise_mm, files::kNoiseMm},
@@ -39,8 +36,7 @@ void add_grid_options(Verb verb, GridInput& input) {
         "by default)",
         facts::grid,
         "to be left out, because it applies to the noise of a grid only"},
-       {"--inches",
-        input.inches,
+       {"--inches", input.inches,
         "In CSV tables, measured positions, lengths and distances are in inches, as "
         "43.8125 or 43 13/16; commands stay in mm",
         facts::table,
@@ -49,11 +45,9 @@ void add_grid_options(Verb verb, GridInput& input) {
 }
 
 OptionRow effects_row(GridInput& input) {
-  return {"--effects",
-          reads(input.effects),
+  return {"--effects", reads(input.effects),
           "chaintrue_effect files: declared causes, tested along with the catalogue's",
-          facts::chains,
-          "to be left out, because declared effects act on two chains"};
+          facts::chains, "to be left out, because declared effects act on two chains"};
 }
 
 namespace {
@@ -61,15 +55,12 @@ namespace {
 void declare(const GridInput& input, const std::string& file, std::optional<Machine>& machine) {
   if (input.effects.empty()) return;
   if (machine) return files::declare_effects(input.effects, *machine);
-  refuse("command line",
-         "--effects",
-         input.effects.front(),
+  refuse("command line", "--effects", input.effects.front(),
          fmt::format("to be left out, or --machine, because {} has no machine", file),
          ProblemKind::contradiction);
 }
 
-MeasuredGrid grid_of(const InputFile& file,
-                     const GridInput& input,
+MeasuredGrid grid_of(const InputFile& file, const GridInput& input,
                      const files::MeasuredOptions& options) {
   files::ReadGrid read = files::parse_grid(file.text, file.name, options);
   print_warnings(read.warnings);
@@ -135,10 +126,8 @@ MeasuredGrid read_grid_input(const GridInput& input) {
   return grid_of(file, input, {.machine = machine_of(input), .inches = input.inches});
 }
 
-grid::MeasuredFile load_measured(const InputFile& file,
-                                 const GridInput& input,
-                                 const files::TapeOptions& tape,
-                                 MeasuredUse use,
+grid::MeasuredFile load_measured(const InputFile& file, const GridInput& input,
+                                 const files::TapeOptions& tape, MeasuredUse use,
                                  const Machine* otherwise) {
   require_kind(file, {FileKind::grid, FileKind::holes});
   files::MeasuredOptions options{.machine = machine_of(input),
@@ -169,10 +158,8 @@ InputFiles open_inputs(const std::string& path, const Words& with) {
   return files;
 }
 
-grid::Measured load_measured(const InputFiles& files,
-                             const GridInput& input,
-                             const files::TapeOptions& tape,
-                             MeasuredUse use) {
+grid::Measured load_measured(const InputFiles& files, const GridInput& input,
+                             const files::TapeOptions& tape, MeasuredUse use) {
   grid::Measured measured;
   measured.add(load_measured(files.front(), input, tape, use));
   OptionProblems problems;
@@ -183,16 +170,14 @@ grid::Measured load_measured(const InputFiles& files,
     if (machine && measured.machine()) {
       const std::string difference = grid::difference_of_settings(*measured.machine(), *machine);
       if (!difference.empty()) {
-        problems.add("--with",
-                     files[k].path,
+        problems.add("--with", files[k].path,
                      fmt::format("a file of the same machine as the first: {}", difference),
                      ProblemKind::contradiction);
       }
     }
     for (std::size_t before = 0; before < k; ++before) {
       if (grid::same_readings(measured.files()[before], other)) {
-        problems.add("--with",
-                     files[k].path,
+        problems.add("--with", files[k].path,
                      fmt::format("another session: it has exactly the same readings as {}",
                                  files[before].path),
                      ProblemKind::repeated_value);
@@ -205,8 +190,7 @@ grid::Measured load_measured(const InputFiles& files,
 }
 
 OptionRow without_row(std::string& without) {
-  return {"--without",
-          without,
+  return {"--without", without,
           "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
           "such as 7,12",
           facts::belts,

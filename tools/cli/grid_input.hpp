@@ -52,18 +52,14 @@ enum class MeasuredUse { fit, check };
 
 /// A grid or a set of holes, as the file is; `otherwise` is the machine for a file that names none,
 /// if available. \throws InputError.
-grid::MeasuredFile load_measured(const InputFile& file,
-                                 const GridInput& input,
-                                 const files::TapeOptions& tape,
-                                 MeasuredUse use,
+grid::MeasuredFile load_measured(const InputFile& file, const GridInput& input,
+                                 const files::TapeOptions& tape, MeasuredUse use,
                                  const Machine* otherwise = nullptr);
 
 /// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
 /// settings. \throws InputError.
-grid::Measured load_measured(const InputFiles& files,
-                             const GridInput& input,
-                             const files::TapeOptions& tape,
-                             MeasuredUse use);
+grid::Measured load_measured(const InputFiles& files, const GridInput& input,
+                             const files::TapeOptions& tape, MeasuredUse use);
 
 struct ReadingCounts {
   std::size_t points = 0;

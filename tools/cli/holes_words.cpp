@@ -28,8 +28,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Section distances_section(const MeasuredHoles& set,
-                          const grid::FittedDistances& fit,
+Section distances_section(const MeasuredHoles& set, const grid::FittedDistances& fit,
                           std::string_view file) {
   Table table{.columns = {text_column("Distance", 22),
                           number_column("measured", 10, 1),
@@ -40,13 +39,10 @@ Section distances_section(const MeasuredHoles& set,
               .is_headed = true};
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
-    table.rows.push_back(report::row_with_flag({words_of(set, set.distances[k]),
-                                                distance.measured_mm,
-                                                distance.commanded_mm,
-                                                distance.left_out_mm,
-                                                distance.sigmas()},
-                                               distance.rejected,
-                                               "left out"));
+    table.rows.push_back(
+        report::row_with_flag({words_of(set, set.distances[k]), distance.measured_mm,
+                               distance.commanded_mm, distance.left_out_mm, distance.sigmas()},
+                              distance.rejected, "left out"));
   }
   Section section{"Distance by distance", {}, true, Detail::verbose, /*is_titled=*/false};
   if (!file.empty()) section.say(fmt::format("{}:", file));
@@ -58,16 +54,13 @@ void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& 
   distances.say(
       fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
                   "(readings relative to the model's lengths).",
-                  100.0 * knowledge.mean[6],
-                  100.0 * std::sqrt(knowledge.covariance(6, 6)),
-                  100.0 * knowledge.mean[7],
-                  100.0 * std::sqrt(knowledge.covariance(7, 7))));
+                  100.0 * knowledge.mean[6], 100.0 * std::sqrt(knowledge.covariance(6, 6)),
+                  100.0 * knowledge.mean[7], 100.0 * std::sqrt(knowledge.covariance(7, 7))));
   distances.say("Left out: measured minus predicted by the other readings, mm.");
 }
 
 std::string distances_in_number(const MeasuredHoles& set) {
-  const auto edges = std::count_if(set.distances.begin(),
-                                   set.distances.end(),
+  const auto edges = std::count_if(set.distances.begin(), set.distances.end(),
                                    [](const auto& distance) { return distance.edge.has_value(); });
   const auto all = static_cast<std::ptrdiff_t>(set.distances.size());
   return edges == 0 ? fmt::format("{} distances", all)
@@ -77,16 +70,15 @@ std::string distances_in_number(const MeasuredHoles& set) {
 std::string workshop_list(const grid::HolesPlan& plan) {
   std::string text = "hole,x_mm,y_mm\n";
   for (const grid::Hole& hole : plan.set.holes) {
-    text += fmt::format(
-        "{},{:.0f},{:.0f}\n", hole.name, hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0);
+    text += fmt::format("{},{:.0f},{:.0f}\n", hole.name, hole.commanded.x_mm + 0.0,
+                        hole.commanded.y_mm + 0.0);
   }
   text +=
       "# Write the tape's reading into distance_mm, and leave it empty if you did not measure; the "
       "expected value is next to it.\n";
   text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
-    text += fmt::format("{},{},,{:.0f}\n",
-                        plan.set.holes[distance.from].name,
+    text += fmt::format("{},{},,{:.0f}\n", plan.set.holes[distance.from].name,
                         distance.edge ? name(*distance.edge) : plan.set.holes[distance.to].name,
                         distance.distance_mm);
   }
@@ -98,23 +90,18 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
       "{} holes, {}. With errors of {:g} mm for the tape and {:g} mm for a hole (one sigma) the "
       "expected error of the tool is {:.2f} mm rms over the bed, {}; without measurement {:.2f} "
       "mm{}.\n\nWhat the set shows                    before     after\n",
-      plan.set.holes.size(),
-      distances_in_number(plan.set),
-      request.tape_sigma_mm,
-      request.hole_sigma_mm,
-      plan.expected_rms_mm,
+      plan.set.holes.size(), distances_in_number(plan.set), request.tape_sigma_mm,
+      request.hole_sigma_mm, plan.expected_rms_mm,
       request.edges ? "including the sheet's placement" : "for the best placement of the sheet",
-      plan.expected_before_mm,
-      request.edges ? " for the best placement of the sheet" : "");
+      plan.expected_before_mm, request.edges ? " for the best placement of the sheet" : "");
   std::vector<std::string> unreported;
   constexpr double kHardlyBetter = 0.7;
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
-    text += fmt::format(
-        "  {:<30}{:>12.3f}{:>10.3f} {}\n", known.name, known.before, known.after, known.unit);
+    text += fmt::format("  {:<30}{:>12.3f}{:>10.3f} {}\n", known.name, known.before, known.after,
+                        known.unit);
     if (known.after > kHardlyBetter * known.before) unreported.push_back(known.name);
   }
-  text += fmt::format("It does not determine: {}.{}\n",
-                      listed(unreported),
+  text += fmt::format("It does not determine: {}.{}\n", listed(unreported),
                       request.edges ? "" : " To locate the sheet, measure to its edges: --edges.");
   std::vector<std::string> clear;
   std::vector<std::string> doubtful;
@@ -135,10 +122,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
   text += fmt::format(
       "Detectable causes of usual size that no setting can imitate: {}.\nDoubtful: {}.\nNot "
       "detectable: {}.\nIndistinguishable: {}.\n",
-      listed(clear),
-      listed(doubtful),
-      listed(unseen),
-      listed(equal));
+      listed(clear), listed(doubtful), listed(unseen), listed(equal));
   return text;
 }
 

@@ -14,8 +14,7 @@
 namespace chaintrue::cli {
 
 /// Each distance: measured, commanded, and predicted by the others; `file` if there are several.
-Section distances_section(const MeasuredHoles& set,
-                          const grid::FittedDistances& fit,
+Section distances_section(const MeasuredHoles& set, const grid::FittedDistances& fit,
                           std::string_view file);
 /// The chains' scales, and the meaning of "left out".
 void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& distances);

@@ -37,9 +37,7 @@ int import_optical(const OpticalCommand& command) {
   write_output(command.output, files::write_grid(read.grid));
   say("{} of {} squares were visited; the sheet is assumed to be placed by hand, within {} mm and "
       "{} mrad{}",
-      read.grid.points.size(),
-      read.squares,
-      read.grid.sheet->shift_mm,
+      read.grid.points.size(), read.squares, read.grid.sheet->shift_mm,
       read.grid.sheet->rotation_mrad,
       options.order ? "" : "; the order of the visits is not known");
   say_next({"fit", command.output, "-o", "map.json"});
@@ -57,18 +55,15 @@ Example:
     --machine fixtures/machines/groundcontrol.json -o grid.json)",
       import_optical);
   verb.has(
-      {{"file",
-        required(reads(c.input)),
+      {{"file", required(reads(c.input)),
         "The scan: 15 lines of 31 errors in x, an empty line, the same in y"},
-       {"--machine",
-        required(reads(c.machine)),
+       {"--machine", required(reads(c.machine)),
         "The machine with the controller settings in force during the scan"},
        {"--pitch-mm", {c.options.pitch_mm, files::kOpticalPitchMm}, "Distance between squares"},
        {"--order",
         {c.order, files::words_of(files::kVisitingOrders)},
         "Order in which the squares were visited, if it is known"},
-       {"-o,--output",
-        writes(c.output, {Origin::measured}),
+       {"-o,--output", writes(c.output, {Origin::measured}),
         "The grid file; - is standard output"}});
 }
 
@@ -80,8 +75,7 @@ struct GroundcontrolCommand {
 
 int import_groundcontrol(const GroundcontrolCommand& command) {
   const files::ReadMachine read = files::read(
-      files::parse_groundcontrol,
-      command.input,
+      files::parse_groundcontrol, command.input,
       command.nominal_pitch ? files::Tolerances::unexplained : files::Tolerances::are_pitch);
   write_output(command.output, files::write_machine(read.machine, sentences_of(read.warnings)));
   print_warnings(read.warnings);
@@ -91,8 +85,7 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
 
 void add_groundcontrol(Verb import) {
   auto [verb, c] = import.add_verb<GroundcontrolCommand>(
-      "groundcontrol",
-      "Convert GroundControl's settings into a machine file",
+      "groundcontrol", "Convert GroundControl's settings into a machine file",
       R"(Missing values are assumed, and listed here and in the file.
 
 Example:
@@ -100,11 +93,9 @@ Example:
     -o machine.json)",
       import_groundcontrol);
   verb.has({{"file", required(reads(c.input)), "groundcontrol.ini"},
-            {"-o,--output",
-             writes(c.output, {Origin::machine}),
+            {"-o,--output", writes(c.output, {Origin::machine}),
              "The machine file; - is standard output"},
-            {"--nominal-pitch",
-             c.nominal_pitch,
+            {"--nominal-pitch", c.nominal_pitch,
              "Do not use the chain tolerances as measurements of the pitch, because their "
              "origin is unknown or they were tuned to hide another error"}});
 }
@@ -138,8 +129,7 @@ files::Maslow4Options options_of(const Maslow4Command& command) {
 std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
   files::Maslow4Options options = options_of(command);
   if (command.inputs.size() > 1 && !command.runs.empty()) {
-    refuse("the command line",
-           "--runs",
+    refuse("the command line", "--runs",
            fmt::format("together with {} logs", command.inputs.size()),
            "one log; the last run of each of several logs is used");
   }
@@ -162,14 +152,8 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
   say("The log holds {} runs:", read.runs.size());
   for (std::size_t i = 0; i < read.runs.size(); ++i) {
     const files::LoggedRun& run = read.runs[i];
-    say("  {} {:>3}  points {}:{}  line {}{}{}",
-        i == read.taken ? '>' : ' ',
-        i + 1,
-        run.points.first,
-        run.points.last,
-        run.line,
-        run.heading.empty() ? "" : "  ",
-        run.heading);
+    say("  {} {:>3}  points {}:{}  line {}{}{}", i == read.taken ? '>' : ' ', i + 1,
+        run.points.first, run.points.last, run.line, run.heading.empty() ? "" : "  ", run.heading);
   }
   if (!was_chosen) {
     say("The last one is used; --runs selects others.");
@@ -181,8 +165,7 @@ void tell_pulls(const MeasuredBelts& belts) {
   const std::vector<double> different = grid::different_pulls(belts);
   if (different.size() < 2) return;
   say("One session with {} pulls: the lowest {}, the others {:.3g} times as strong.",
-      different.size(),
-      grid::words_of(*grid::reference_pull(belts)),
+      different.size(), grid::words_of(*grid::reference_pull(belts)),
       fmt::join(different.begin() + 1, different.end(), ", "));
 }
 
@@ -211,8 +194,7 @@ int import_maslow4(const Maslow4Command& command) {
 
 void add_import_maslow4(Verb import) {
   auto [verb, c] = import.add_verb<Maslow4Command>(
-      "maslow4",
-      "Convert the log of a Maslow 4's Find Anchors into a belts file",
+      "maslow4", "Convert the log of a Maslow 4's Find Anchors into a belts file",
       R"(Missing values are assumed, and listed here and in the file.
 
 Examples:
@@ -222,8 +204,7 @@ Examples:
     --pulls 1,1.6 -o two_pulls.json)",
       import_maslow4);
   verb.has(
-      {{"file",
-        required(reads(c.inputs)),
+      {{"file", required(reads(c.inputs)),
         "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. "
         "Several logs are runs of one session on one frame, each with its own pull"},
        {"--settings", reads(c.settings), "The machine's maslow.yaml"},
@@ -232,17 +213,14 @@ Examples:
         "Meaning of a length: the slanting belt alone; the belt with its extension and arm, as "
         "printed before October 2024; or the level span from anchor to tool, as printed since"},
        {"--orientation", {c.orientation, {"upright", "flat"}}, "Position of the frame"},
-       {"--runs",
-        c.runs,
+       {"--runs", c.runs,
         "Runs of the log to use, such as 2 or 1,2; several form one session. A run may be given by "
         "its first and last point, counted from 0 over all runs, such as 0:98. Default: the last"},
-       {"--pulls",
-        c.pulls,
+       {"--pulls", c.pulls,
         "Pull on the belts in each run: a ratio (1,1.6), the motors' current "
         "(1300mA,1900mA; Maslow_Calibration_Current_Threshold) or a force (150N,240N). "
         "Default: as the log prints that setting"},
-       {"-o,--output",
-        writes(c.output, {Origin::measured}),
+       {"-o,--output", writes(c.output, {Origin::measured}),
         "The belts file; - is standard output"}});
 }
 
@@ -261,29 +239,25 @@ int import_plotter(const PlotterCommand& command) {
 
 void add_import_plotter(Verb import) {
   auto [verb, c] = import.add_verb<PlotterCommand>(
-      "plotter",
-      "Convert the settings of a V-plotter's controller into a plotter file",
+      "plotter", "Convert the settings of a V-plotter's controller into a plotter file",
       R"(Missing values are assumed, and listed here and in the file.
 
 Example:
   build/chaintrue import plotter fixtures/plotter/mural.txt -o plotter.json)",
       import_plotter);
-  verb.has({{"file",
-             required(reads(c.input)),
+  verb.has({{"file", required(reads(c.input)),
              "FluidNC's config.yaml with a WallPlotter, Marlin's M665 and M92 or its "
              "Configuration.h, Polargraph's properties, or a mural's numbers, one per line"},
-            {"-o,--output",
-             writes(c.output, {Origin::machine}),
+            {"-o,--output", writes(c.output, {Origin::machine}),
              "The plotter file; - is standard output"}});
 }
 
 }  // namespace
 
 void add_import(Verb app) {
-  Verb verb =
-      app.add_verb("import",
-                   "Convert files of other programs into machine, plotter, grid and belts files",
-                   R"(Example:
+  Verb verb = app.add_verb(
+      "import", "Convert files of other programs into machine, plotter, grid and belts files",
+      R"(Example:
   build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \
     -o machine.json)");
   verb.require_verb();

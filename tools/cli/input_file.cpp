@@ -22,13 +22,11 @@ InputFile open_input(const std::string& path) {
 
 Facts InputFile::fact() const { return Facts{1} << static_cast<Facts>(kind); }
 
-void require_kind(const InputFile& file,
-                  const std::vector<FileKind>& taken,
+void require_kind(const InputFile& file, const std::vector<FileKind>& taken,
                   const std::string& also) {
   if (grid::contains(taken, file.kind)) return;
   if (also.empty() && file.kind == FileKind::belt_holes && grid::contains(taken, FileKind::holes)) {
-    return require_kind(file,
-                        taken,
+    return require_kind(file, taken,
                         "holes cut by four belts are fitted together with belt lengths: chaintrue "
                         "fit belts.json --with FILE");
   }
@@ -46,8 +44,8 @@ void require_kind(const InputFile& file,
          : is_json                         ? "/file_type"
                                            : "",
          files::found_kind(file.text, file.name),
-         fmt::format(
-             "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes),
+         fmt::format("{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also,
+                     what_takes),
          ProblemKind::file_kind);
 }
 
@@ -69,27 +67,21 @@ Machine load_machine(const InputFile& file) {
   return std::move(read.machine);
 }
 
-files::ReadBelts load_belts(const InputFile& file,
-                            const std::string& work,
+files::ReadBelts load_belts(const InputFile& file, const std::string& work,
                             const std::vector<std::size_t>& without) {
   files::ReadBelts read = files::parse_belts(file.text, file.name, without);
   print_warnings(read.warnings);
   if (read.belts.points.size() > grid::kMostBeltPoints) {
-    refuse(file.name,
-           "/points",
-           fmt::format("{} places are more than {} accepts ({})",
-                       read.belts.points.size(),
-                       work,
+    refuse(file.name, "/points",
+           fmt::format("{} places are more than {} accepts ({})", read.belts.points.size(), work,
                        grid::kMostBeltPoints),
-           "fewer: leave some out, evenly over the sheet",
-           ProblemKind::too_many);
+           "fewer: leave some out, evenly over the sheet", ProblemKind::too_many);
   }
   return read;
 }
 
 CompensationMap load_map(const InputFile& file) {
-  require_kind(file,
-               {FileKind::map},
+  require_kind(file, {FileKind::map},
                file.kind == FileKind::anchors ? "anchors of four belts are read by chaintrue "
                                                 "query, report, check, gcode and export maslow4"
                                               : "");
@@ -112,8 +104,8 @@ BeltMachine load_belt_machine(const InputFile& file) {
   if (file.kind == FileKind::anchors) return files::machine_as_pasted(load_anchors(file).fit);
   BeltMachine machine = load_belts(file, "a machine").belts.machine;
   if (!machine.anchors_known) {
-    refuse(
-        file.name, "/machine/anchors", "", "x_mm and y_mm of all four anchors that are in force");
+    refuse(file.name, "/machine/anchors", "",
+           "x_mm and y_mm of all four anchors that are in force");
   }
   return machine;
 }

@@ -44,8 +44,7 @@ InputFile open_input(const std::string& path);
 
 /// \param also a clause on where a refused kind is accepted; empty: as usual for that kind
 /// \throws InputError with the kind found and the kinds accepted.
-void require_kind(const InputFile& file,
-                  const std::vector<FileKind>& taken,
+void require_kind(const InputFile& file, const std::vector<FileKind>& taken,
                   const std::string& also = "");
 
 /// Each reads a file of its kind. \throws InputError with every problem.
@@ -58,8 +57,7 @@ Machine load_machine(const InputFile& file);
 BeltMachine load_belt_machine(const InputFile& file);
 /// At most kMostBeltPoints places; `work` is their purpose: "a fit". Leaves out the points
 /// `without`, counted from 1.
-files::ReadBelts load_belts(const InputFile& file,
-                            const std::string& work,
+files::ReadBelts load_belts(const InputFile& file, const std::string& work,
                             const std::vector<std::size_t>& without = {});
 
 CompensationMap load_map(const InputFile& file);

@@ -15,8 +15,8 @@ namespace chaintrue::cli {
 namespace {
 
 /// These do not change the result, only what is printed or may be replaced.
-constexpr std::string_view kWithoutTrace[] = {
-    "--force", "--json", "--quiet", "--threads", "--verbose", "--wish-mm"};
+constexpr std::string_view kWithoutTrace[] = {"--force",   "--json",    "--quiet",
+                                              "--threads", "--verbose", "--wish-mm"};
 
 /// \param is_file its words name files
 std::string in_words(const GivenOption& option, bool is_file) {
@@ -64,9 +64,7 @@ void report_difference(const InputFile& result) {
     end_progress();
     say("{} has changed since {} was made from it: make {} again if the measurements have "
         "changed.",
-        name,
-        result.name,
-        result.name);
+        name, result.name, result.name);
   }
 }
 

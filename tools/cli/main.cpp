@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The entry point: prepares the process and turns errors into messages and exit codes.
-#include <cstdio>
 #include <fcntl.h>
-#include <functional>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cstdio>
+#include <functional>
 
 #include <algorithm>
 #include <cerrno>

@@ -16,9 +16,7 @@ using report::number_column;
 using report::text_column;
 
 /// Next steps, the most urgent first.
-void put_advice(const MapContents& contents,
-                const Machine* machine,
-                std::string_view source,
+void put_advice(const MapContents& contents, const Machine* machine, std::string_view source,
                 Document& document) {
   const auto say = [&document](std::string text) {
     document.advice.push_back({std::move(text), Detail::page});
@@ -29,18 +27,13 @@ void put_advice(const MapContents& contents,
     say(
         fmt::format("Measure point {} at ({:.0f}, {:.0f}) again: it is {:.1f} mm off the "
                     "prediction by its neighbours.",
-                    i + 1,
-                    point.mark.x_mm,
-                    point.mark.y_mm,
-                    point.left_out_mm.norm()));
+                    i + 1, point.mark.x_mm, point.mark.y_mm, point.left_out_mm.norm()));
   }
   for (const grid::SettingResult& result : contents.settings) {
     if (!result.off) continue;
     const SettingWords& words = setting_words(result.setting);
     say(fmt::format("Check \"{}\" with a tape: your file has {:.1f} {}, the points suggest {:.1f}.",
-                    words.words,
-                    words.factor * result.stated,
-                    words.unit,
+                    words.words, words.factor * result.stated, words.unit,
                     words.factor * result.calibrated));
   }
   if (machine != nullptr) {
@@ -74,17 +67,15 @@ Section remarks_section(const CompensationMap& map, std::optional<double> wish_m
   Section section{"What else was found"};
   if (wish_mm) section.say(wish_sentence(map, *wish_mm));
   if (not_to_cut_with(map).empty()) {
-    section.say(worst_sentence(accuracy.expected_worst_at.x_mm,
-                               accuracy.expected_worst_at.y_mm,
+    section.say(worst_sentence(accuracy.expected_worst_at.x_mm, accuracy.expected_worst_at.y_mm,
                                accuracy.expected_tool.maximum_mm));
   }
   if (map.machine() != nullptr && !contents.distances &&
       contents.noise.source != grid::NoiseSource::stated) {
-    section.say(fmt::format("Your readings scatter by about {:.2f} mm{}.",
-                            grid::noise_at_tool_mm(map),
-                            contents.noise.source == grid::NoiseSource::repeats
-                                ? ", judged by the marks measured twice"
-                                : ""));
+    section.say(fmt::format(
+        "Your readings scatter by about {:.2f} mm{}.", grid::noise_at_tool_mm(map),
+        contents.noise.source == grid::NoiseSource::repeats ? ", judged by the marks measured twice"
+                                                            : ""));
   }
   for (const std::string& note : contents.notes) section.say(note);
   return section;
@@ -92,8 +83,7 @@ Section remarks_section(const CompensationMap& map, std::optional<double> wish_m
 
 Table left_out_distances(const grid::DistancesUsed& used) {
   return {.columns = {text_column("Error of distances left out one at a time, mm", 48),
-                      number_column("rms", 8),
-                      number_column("max", 8)},
+                      number_column("rms", 8), number_column("max", 8)},
           .rows = {{{"all", used.left_out_all.rms_mm, used.left_out_all.maximum_mm}},
                    {{"those that fit", used.left_out_good.rms_mm, used.left_out_good.maximum_mm}}},
           .is_headed = true,
@@ -103,18 +93,13 @@ Table left_out_distances(const grid::DistancesUsed& used) {
 Table left_out_points(const CompensationMap& map) {
   const grid::MapAccuracy& accuracy = map.contents().accuracy;
   const bool direct = map.machine() == nullptr;
-  Table table{.columns = {text_column("Error of points left out, mm", 28),
-                          number_column("chain rms", 8),
-                          number_column("max", 8),
-                          number_column("tool rms", 10),
-                          number_column("max", 8)},
-              .is_headed = true,
-              .head_width = 35};
+  Table table{
+      .columns = {text_column("Error of points left out, mm", 28), number_column("chain rms", 8),
+                  number_column("max", 8), number_column("tool rms", 10), number_column("max", 8)},
+      .is_headed = true,
+      .head_width = 35};
   const auto row = [&table](const char* what, const grid::HeldOutError& error) {
-    table.rows.push_back({{what,
-                           error.chain.rms_mm,
-                           error.chain.maximum_mm,
-                           error.tool.rms_mm,
+    table.rows.push_back({{what, error.chain.rms_mm, error.chain.maximum_mm, error.tool.rms_mm,
                            error.tool.maximum_mm}});
   };
   if (accuracy.leave_one_out.tool.maximum_mm == 0.0) {
@@ -152,17 +137,15 @@ std::string provenance_of(std::string_view source) {
   return fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);
 }
 
-Document map_document(const CompensationMap& map,
-                      std::string_view source,
-                      Detail detail,
+Document map_document(const CompensationMap& map, std::string_view source, Detail detail,
                       std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   Document document;
   document.title = contents.name.empty() ? "Compensation map"
                                          : fmt::format("Compensation map: {}", contents.name);
-  document.subtitle = fmt::format("{}, {} points",
-                                  map.machine() ? map.machine()->name : "no machine model",
-                                  contents.points.size());
+  document.subtitle =
+      fmt::format("{}, {} points", map.machine() ? map.machine()->name : "no machine model",
+                  contents.points.size());
   document.verdict = {fit_sentence(map)};
   document.tone = tone_of(contents);
   put_advice(contents, map.machine(), source, document);

@@ -15,10 +15,8 @@ namespace chaintrue::cli {
 
 /// `source` is the name of the map's file, for the page's last line. Pictures are made if `detail`
 /// is page. The map is compared with `wish_mm`, an error of the tool, if given.
-Document map_document(const CompensationMap& map,
-                      std::string_view source,
-                      Detail detail = Detail::page,
-                      std::optional<double> wish_mm = std::nullopt);
+Document map_document(const CompensationMap& map, std::string_view source,
+                      Detail detail = Detail::page, std::optional<double> wish_mm = std::nullopt);
 
 /// The data of the pictures.
 report::MapPictures map_pictures(const CompensationMap& map);

@@ -83,44 +83,30 @@ report::ErrorMap error_map_of(const CompensationMap& map, const report::Outline&
 std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
   const MapContents& contents = map.contents();
   std::vector<ErrorStep> steps;
-  const auto add = [&steps](ErrorStep::Kind kind,
-                            std::string what,
-                            const grid::ErrorSummary& error,
+  const auto add = [&steps](ErrorStep::Kind kind, std::string what, const grid::ErrorSummary& error,
                             std::string note) {
     steps.push_back({kind, std::move(what), error.rms_mm, error.maximum_mm, std::move(note)});
   };
   const bool has_machine = map.machine() != nullptr;
   if (has_machine) {
-    add(ErrorStep::Kind::before,
-        "machine file as it was",
-        summary_of(contents, &MapPoint::as_stated_mm),
-        "at the measured points");
+    add(ErrorStep::Kind::before, "machine file as it was",
+        summary_of(contents, &MapPoint::as_stated_mm), "at the measured points");
   }
   if (has_machine && has_placed_sheet(contents)) {
-    add(ErrorStep::Kind::before,
-        "sheet found",
-        summary_of(contents, &MapPoint::sheet_placed_mm),
+    add(ErrorStep::Kind::before, "sheet found", summary_of(contents, &MapPoint::sheet_placed_mm),
         "the same, for the best placement of the sheet");
   }
   if (has_machine) {
-    add(ErrorStep::Kind::after,
-        "map, its own points",
-        summary_of(contents, &MapPoint::mapped_mm),
+    add(ErrorStep::Kind::after, "map, its own points", summary_of(contents, &MapPoint::mapped_mm),
         "residual of the fit; not a measure of accuracy");
   }
   if (contents.distances) {
-    add(ErrorStep::Kind::after,
-        "distances left out",
-        contents.distances->left_out_good,
+    add(ErrorStep::Kind::after, "distances left out", contents.distances->left_out_good,
         "each distance predicted by a fit without it, along the tape; includes the tape's noise");
   } else {
-    add(ErrorStep::Kind::after,
-        "map, points left out",
-        contents.accuracy.leave_one_out.tool,
+    add(ErrorStep::Kind::after, "map, points left out", contents.accuracy.leave_one_out.tool,
         "each point predicted by a map without it; includes that reading's noise");
-    add(ErrorStep::Kind::after,
-        "map, regions left out",
-        contents.accuracy.blocked.tool,
+    add(ErrorStep::Kind::after, "map, regions left out", contents.accuracy.blocked.tool,
         "a block of the bed predicted by a map without it");
   }
   if (noise_mm > 0.0) {
@@ -129,15 +115,12 @@ std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
                      noise_mm,
                      {},
                      fmt::format("{:.2g} mm per chain and {:.2g} mm per mark, {}",
-                                 contents.noise.length_mm,
-                                 contents.noise.position_mm,
+                                 contents.noise.length_mm, contents.noise.position_mm,
                                  contents.noise.source == grid::NoiseSource::stated
                                      ? std::string("as given")
                                      : fmt::format("found from {}", name(contents.noise.source)))});
   }
-  add(ErrorStep::Kind::reference,
-      "map, expected",
-      contents.accuracy.expected_tool,
+  add(ErrorStep::Kind::reference, "map, expected", contents.accuracy.expected_tool,
       "one sigma relative to the true machine, over the measured part");
   return steps;
 }

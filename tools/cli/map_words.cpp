@@ -82,8 +82,7 @@ std::string not_to_cut_with(const CompensationMap& map) {
       "Do not cut with this map: at marks left out of the fit it is off by {} mm rms, more than "
       "{:g} mm. Check the marks with the largest errors, the machine's dimensions and the settings "
       "in force, and measure again.",
-      about_mm(left_out_mm),
-      kMostToCutWithMm);
+      about_mm(left_out_mm), kMostToCutWithMm);
 }
 
 void require_fit_for_cutting(const std::string& why, bool is_forced) {
@@ -98,48 +97,42 @@ std::string about_mm(double mm) {
   return fmt::format("{:.{}f}", mm, mm < 9.95 ? 1 : 0);
 }
 
-std::string misses_sentence(const std::optional<grid::ErrorSummary>& today,
-                            double expected_mm,
+std::string misses_sentence(const std::optional<grid::ErrorSummary>& today, double expected_mm,
                             const Remedy& remedy) {
   // Both include the map's uncertainty, which limits what it shows about the machine.
   constexpr double kNoMoreThanUncertain = 1.4142;
   if (today && today->rms_mm <= kNoMoreThanUncertain * expected_mm) {
     return fmt::format(
         "Your machine needs no {}: its error is below what these readings can show, about {} mm.",
-        remedy.needed,
-        about_mm(expected_mm));
+        remedy.needed, about_mm(expected_mm));
   }
   if (!today) {
-    return fmt::format(
-        "With {} your machine misses by about {} mm.", remedy.with, about_mm(expected_mm));
+    return fmt::format("With {} your machine misses by about {} mm.", remedy.with,
+                       about_mm(expected_mm));
   }
   return fmt::format("Your machine misses by about {} mm. With {} it misses by about {} mm.",
-                     about_mm(today->rms_mm),
-                     remedy.with,
-                     about_mm(expected_mm));
+                     about_mm(today->rms_mm), remedy.with, about_mm(expected_mm));
 }
 
 std::string worst_sentence(double x_mm, double y_mm, double worst_mm) {
   return fmt::format(
       "At worst it misses by about {} mm, in 95 of 100 sessions. The error is largest near "
       "({:.0f}, {:.0f}).",
-      about_mm(worst_mm),
-      x_mm,
-      y_mm);
+      about_mm(worst_mm), x_mm, y_mm);
 }
 
 std::string fit_sentence(const CompensationMap& map) {
   if (map.machine() == nullptr) return points_sentence(map);
   if (!not_to_cut_with(map).empty())
     return "These readings disagree with each other, so the map is not fit for cutting.";
-  return misses_sentence(
-      grid::error_in_use(map), map.contents().accuracy.expected_tool.rms_mm, {"this map", "map"});
+  return misses_sentence(grid::error_in_use(map), map.contents().accuracy.expected_tool.rms_mm,
+                         {"this map", "map"});
 }
 
 std::string points_sentence(const CompensationMap& map) {
   const MapContents& contents = map.contents();
-  const auto bad = std::count_if(
-      contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
+  const auto bad = std::count_if(contents.points.begin(), contents.points.end(),
+                                 [](const auto& p) { return p.bad; });
   const std::size_t points = contents.points.size();
   const grid::HeldOutError& left_out = contents.accuracy.leave_one_out;
   if (map.machine() == nullptr && left_out.tool.maximum_mm == 0.0) {
@@ -152,28 +145,22 @@ std::string points_sentence(const CompensationMap& map) {
     return fmt::format(
         "Splines through the lengths of {} points: each row and column, left out in turn, is "
         "predicted to {:.2f} mm rms ({:.2f} mm at worst).",
-        points,
-        left_out.tool.rms_mm,
-        left_out.tool.maximum_mm);
+        points, left_out.tool.rms_mm, left_out.tool.maximum_mm);
   }
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     return fmt::format(
         "{} distances between {} holes: each one, left out in turn, is predicted to {:.2f} mm "
         "rms{}.",
-        used.used,
-        points,
-        used.left_out_good.rms_mm,
+        used.used, points, used.left_out_good.rms_mm,
         used.rejected == 0 ? "" : fmt::format("; {} more were left out as wrong", used.rejected));
   }
   return fmt::format(
       "At the {} points{} the machine is {:.2f} mm rms off, the map {:.2f} mm; each point, left "
       "out in turn, is predicted to {:.2f} mm rms{}.",
-      points,
-      has_placed_sheet(contents) ? ", for the best placement of the sheet," : "",
+      points, has_placed_sheet(contents) ? ", for the best placement of the sheet," : "",
       summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
-      summary_of(contents, &grid::MapPoint::mapped_mm).rms_mm,
-      left_out.tool.rms_mm,
+      summary_of(contents, &grid::MapPoint::mapped_mm).rms_mm, left_out.tool.rms_mm,
       bad == 0 ? "" : fmt::format("; {} were left out as wrong", bad));
 }
 
@@ -198,15 +185,9 @@ std::string wish_sentence(const CompensationMap& map, double wish_mm) {
 
 const SettingWords& setting_words(model::Setting setting) {
   static constexpr SettingWords kSettingWords[] = {
-      {"left motor, x"},
-      {"left motor, y"},
-      {"right motor, x"},
-      {"right motor, y"},
-      {"left chain's zero"},
-      {"right chain's zero"},
-      {"sheet offset, right"},
-      {"sheet offset, up"},
-      {"sheet rotation, left", "mrad", 1000.0},
+      {"left motor, x"},       {"left motor, y"},     {"right motor, x"},
+      {"right motor, y"},      {"left chain's zero"}, {"right chain's zero"},
+      {"sheet offset, right"}, {"sheet offset, up"},  {"sheet rotation, left", "mrad", 1000.0},
   };  // by Setting
   return kSettingWords[static_cast<std::size_t>(setting)];
 }
@@ -224,15 +205,10 @@ Table settings_table(const std::vector<SettingRow>& settings) {
   for (const SettingRow& row : settings) {
     const SettingWords& words = setting_words(row.setting);
     const auto value = [&](double of) { return words.factor * of; };
-    table.rows.push_back(
-        report::row_with_flag({words.words,
-                               value(row.stated),
-                               row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
-                               value(row.calibrated),
-                               value(row.sigma),
-                               words.unit},
-                              row.is_off,
-                              "off: by more than the uncertainty in your file"));
+    table.rows.push_back(report::row_with_flag(
+        {words.words, value(row.stated), row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
+         value(row.calibrated), value(row.sigma), words.unit},
+        row.is_off, "off: by more than the uncertainty in your file"));
   }
   return table;
 }

@@ -54,8 +54,7 @@ struct Remedy {
 };
 /// "Your machine misses by about 4.9 mm. With this map it misses by about 0.2 mm." `today` is
 /// empty if the settings in force are unknown.
-std::string misses_sentence(const std::optional<grid::ErrorSummary>& today,
-                            double expected_mm,
+std::string misses_sentence(const std::optional<grid::ErrorSummary>& today, double expected_mm,
                             const Remedy& remedy);
 /// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. The error is largest near (1118, 508)."
 std::string worst_sentence(double x_mm, double y_mm, double worst_mm);

@@ -10,9 +10,7 @@
 
 namespace chaintrue::cli {
 
-void OptionProblems::add(std::string_view option,
-                         std::string value,
-                         std::string expected,
+void OptionProblems::add(std::string_view option, std::string value, std::string expected,
                          ProblemKind kind) {
   problems_.push_back(
       {"command line", std::string(option), std::move(value), std::move(expected), {}, kind});
@@ -20,9 +18,7 @@ void OptionProblems::add(std::string_view option,
 
 void OptionProblems::require(std::string_view option, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  add(option,
-      fmt::format("{}", value),
-      fmt::format("a number from {} to {}", least, most),
+  add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most),
       ProblemKind::out_of_range);
 }
 

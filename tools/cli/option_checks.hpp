@@ -61,8 +61,7 @@ Declared& declared();
 /// `check` runs if the verb was chosen. Out-of-range numbers have their defaults then.
 void add_option_check(Verb verb, std::function<void(OptionProblems&)> check);
 template <class Command>
-void add_option_check(Verb verb,
-                      const Command& command,
+void add_option_check(Verb verb, const Command& command,
                       void (*check)(const Command&, OptionProblems&)) {
   add_option_check(verb, [&command, check](OptionProblems& problems) { check(command, problems); });
 }

@@ -88,15 +88,12 @@ class PlaceCheck {
   void look_at(const std::string& path, const Place& place) {
     const std::string taken = identity_as_place(path);
     if (!taken.empty() && grid::contains(taken_, taken))
-      return add(path,
-                 "a name given twice",
-                 "a different file for each output",
+      return add(path, "a name given twice", "a different file for each output",
                  ProblemKind::output_repeated);
     taken_.push_back(taken);
     const auto identity = identity_of_output(path);
     if (identity && grid::contains(inputs_, *identity))
-      return add(path,
-                 "a file that is read here",
+      return add(path, "a file that is read here",
                  "another name, because an input file is never replaced",
                  ProblemKind::output_is_input);
     if (is_standard_output(path)) return;
@@ -110,8 +107,7 @@ class PlaceCheck {
         origin == Origin::foreign   ? "a file that chaintrue did not make"
         : origin == Origin::changed ? "a file that somebody wrote or changed"
                                     : "a file of another kind",
-        "another name, or --force to replace it",
-        ProblemKind::output_not_ours);
+        "another name, or --force to replace it", ProblemKind::output_not_ours);
   }
 
   void throw_if_any() const {
@@ -134,9 +130,7 @@ class PlaceCheck {
     }
   }
 
-  void add(std::string path,
-           std::string found,
-           std::string expected,
+  void add(std::string path, std::string found, std::string expected,
            ProblemKind kind = ProblemKind::output_place) {
     problems_.push_back({std::move(path), "", std::move(found), std::move(expected), {}, kind});
   }
@@ -237,16 +231,12 @@ void check_folder(Verb verb, const std::string& folder, const std::vector<Folder
 
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
   if (folder.empty() || folder.front() == '-')
-    refuse("the folder",
-           folder.empty() ? "an empty name" : folder,
-           "the name of a folder; it will hold many files",
-           ProblemKind::output_place);
+    refuse("the folder", folder.empty() ? "an empty name" : folder,
+           "the name of a folder; it will hold many files", ProblemKind::output_place);
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
-    refuse(folder,
-           error.message(),
-           "a folder that can be created or written to",
+    refuse(folder, error.message(), "a folder that can be created or written to",
            ProblemKind::output_place);
   try {
     check_folder(verb, folder, contents);

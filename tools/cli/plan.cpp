@@ -59,13 +59,10 @@ struct PlanOptions {
   std::string measure;
 };
 
-std::string in_words(const grid::MeasurementPlan& plan,
-                     const grid::observation::PointNoise& noise,
+std::string in_words(const grid::MeasurementPlan& plan, const grid::observation::PointNoise& noise,
                      const ExpectedErrors& errors) {
   std::string text = fmt::format("{} points: {} columns x {} rows, denser towards the edges",
-                                 plan.marks.size(),
-                                 plan.columns,
-                                 plan.rows);
+                                 plan.marks.size(), plan.columns, plan.rows);
   if (plan.extra > 0) {
     text += fmt::format(", and {} where the error would be largest", plan.extra);
   }
@@ -73,11 +70,7 @@ std::string in_words(const grid::MeasurementPlan& plan,
       ".\nMeasure row by row from the bottom left, turning back at the end of each.\nExpected "
       "error of the tool with {:g} mm noise in a length and {:g} mm in a position (one sigma): "
       "{:.2f} mm rms over the bed, {:.2f} mm at most, at ({:.0f}, {:.0f}).\n",
-      noise.length_mm,
-      noise.position_mm,
-      errors.rms_mm,
-      errors.largest_mm,
-      errors.worst_at.x_mm,
+      noise.length_mm, noise.position_mm, errors.rms_mm, errors.largest_mm, errors.worst_at.x_mm,
       errors.worst_at.y_mm);
   if (errors.unanswered > 0) {
     text += fmt::format(
@@ -126,20 +119,16 @@ int run_check_plan(Verb verb, const PlanOptions& options) {
   const grid::CheckPlan plan =
       value_of(grid::plan_check(map, request), "chaintrue plan", kNotSupportedOrOutside);
   const auto& [left, right] = plan.expected_sigmas;
-  Outputs outputs = sheet_outputs({plan.marks, sheet_of(options.measure, machine)},
-                                  *machine,
-                                  {request.length_mm, request.position_mm, StatedNoise{}.dof},
-                                  options.outputs,
-                                  fmt::format("\"expected_sigmas\": [{}, {}]", left, right));
+  Outputs outputs =
+      sheet_outputs({plan.marks, sheet_of(options.measure, machine)}, *machine,
+                    {request.length_mm, request.position_mm, StatedNoise{}.dof}, options.outputs,
+                    fmt::format("\"expected_sigmas\": [{}, {}]", left, right));
   outputs.push_back({options.outputs.drawing, draw(plan, map)});
   write_outputs(outputs);
   say("{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: its effect is "
       "{:.1f} times the scatter of the readings (left chain), {:.1f} times (right).",
-      plan.marks.size(),
-      100.0 * model::kPitchGrowthSigma,
-      detectable_change(plan.expected_sigmas),
-      left,
-      right);
+      plan.marks.size(), 100.0 * model::kPitchGrowthSigma, detectable_change(plan.expected_sigmas),
+      left, right);
   say_next({"check", options.check, options.outputs.list});
   return kDone;
 }
@@ -167,14 +156,10 @@ int run_marks_plan(const PlanOptions& options, const Machine& machine) {
   problems.throw_if_any();
   const ExpectedErrors errors = expected_errors(plan.map, machine.bed);
   Outputs outputs = sheet_outputs(
-      {plan.marks,
-       sheet_of(options.measure, &machine),
+      {plan.marks, sheet_of(options.measure, &machine),
        grid::with_second_visits(plan.marks.size(), grid::as_size(options.second_visits))},
-      machine,
-      {noise.length_mm, noise.position_mm, StatedNoise{}.dof},
-      options.outputs,
-      fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
-                  errors.rms_mm,
+      machine, {noise.length_mm, noise.position_mm, StatedNoise{}.dof}, options.outputs,
+      fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}", errors.rms_mm,
                   errors.largest_mm));
   outputs.push_back({options.outputs.drawing, draw_plan(plan, machine.bed, errors)});
   write_outputs(outputs);
@@ -188,8 +173,8 @@ int run_plan(Verb verb, PlanOptions options) {
   if (!options.check.empty()) return run_check_plan(verb, options);
   const bool of_tape = options.holes.holes != 0;
   const Machine machine = read_machine_input(options.machine);
-  verb.refuse_idle_options(with_program(
-      options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
+  verb.refuse_idle_options(with_program(options, of_tape ? facts::tape : facts::lattice,
+                                        of_tape || drills_marks(options, &machine)));
   if (!of_tape) return run_marks_plan(options, machine);
   options.holes.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
   const int code = plan_the_holes(options.holes, machine, options.outputs);
@@ -217,8 +202,7 @@ Examples:
   build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 --tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
   build/chaintrue plan --check map.json -o five.csv --svg five.svg)",
-      run_plan,
-      [](const PlanOptions& own) {
+      run_plan, [](const PlanOptions& own) {
         if (own.follow_up.after.empty() && !own.follow_up.file.empty()) missing_option("--after");
         if (own.follow_up.after.empty() && own.check.empty() && own.machine.empty())
           missing_option("--machine");
@@ -227,39 +211,28 @@ Examples:
   const grid::CheckPlanRequest usual_check;
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
-                       what,
-                       usually_mm,
-                       in_check_mm);
+                       what, usually_mm, in_check_mm);
   };
   verb.has(
-      {{"--machine",
-        reads(c.machine),
+      {{"--machine", reads(c.machine),
         "chaintrue_machine file; - is standard input. With --after only if the grid has none; "
         "not with --check",
         lattice | tape | chains,
         "to be left out, because maps to check and belts contain their machine"},
-       {"grid",
-        reads(c.follow_up.file),
+       {"grid", reads(c.follow_up.file),
         "With --after: the points, holes or belts measured so far"},
-       {"--after",
-        reads(c.follow_up.after),
+       {"--after", reads(c.follow_up.after),
         "A chaintrue_diagnosis of those points: plan what to measure "
         "next, and the lines to add to the file"},
-       {"--with",
-        reads(c.follow_up.with),
-        "With --after: the other files of the same diagnosis, as given to diagnose --with",
-        chains,
+       {"--with", reads(c.follow_up.with),
+        "With --after: the other files of the same diagnosis, as given to diagnose --with", chains,
         "to be left out, because belts are diagnosed separately"},
        {"--points",
         {c.points, {"", 1.0, 1000.0}},
         fmt::format(
             "Number of marks, {} to {}, {} by default; with --check {} to {}, {} by default",
-            grid::kFewestPlanned,
-            grid::kMostPlanned,
-            usual.points,
-            grid::kFewestCheckPoints,
-            grid::kMostCheckPoints,
-            usual_check.points),
+            grid::kFewestPlanned, grid::kMostPlanned, usual.points, grid::kFewestCheckPoints,
+            grid::kMostCheckPoints, usual_check.points),
         planned_marks,
         "to be left out with --after, because the diagnosis determines the number"},
        {"--second-visits",
@@ -268,8 +241,7 @@ Examples:
         "the session",
         lattice,
         "to be left out, because it applies to new marks in columns and rows only"},
-       {"--check",
-        reads(c.check),
+       {"--check", reads(c.check),
         "Plan the few points that best show later whether this chaintrue_map still holds"},
        {"--margin-mm",
         {c.margin_mm, {"mm", 0.0, 10000.0}},
@@ -281,8 +253,7 @@ Examples:
        {"--holes",
         {c.holes.holes, {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles}},
         fmt::format("Plan this number of holes, {} to {}, and tape distances between them",
-                    grid::kFewestPlannedHoles,
-                    grid::kMostPlannedHoles),
+                    grid::kFewestPlannedHoles, grid::kMostPlannedHoles),
         lattice | tape,
         "to be left out with --after and --check, which plan something else"}});
   add_tape_options(verb, c.holes);
@@ -309,27 +280,20 @@ Examples:
         "chains. Default: places if the machine has a controller, otherwise lengths",
         planned_marks,
         "to be left out, because it applies to readings at marks only"},
-       {"-o,--output",
-        writes(c.outputs.list, {Origin::list, Origin::measured}),
+       {"-o,--output", writes(c.outputs.list, {Origin::list, Origin::measured}),
         "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
         "standard output"},
-       {"--json",
-        c.outputs.json,
+       {"--json", c.outputs.json,
         "Print the list as JSON, including the machine; if the list goes to a file, the "
         "places and the expected error",
-        planned,
-        "to be left out with --after, because the lines match their file"},
-       {"--page",
-        writes(c.outputs.page, {Origin::page}),
-        "Write a page to print: the bed, the instructions, and lines to fill in",
-        planned,
+        planned, "to be left out with --after, because the lines match their file"},
+       {"--page", writes(c.outputs.page, {Origin::page}),
+        "Write a page to print: the bed, the instructions, and lines to fill in", planned,
         "to be left out with --after, which prints lines for a file"},
-       {"--gcode",
-        writes(c.outputs.gcode, {Origin::program}),
+       {"--gcode", writes(c.outputs.gcode, {Origin::program}),
         "Write a program that drills the marks in order, or stops above each one if lengths "
         "are to be read",
-        planned,
-        "to be left out with --after, which prints lines for a file"},
+        planned, "to be left out with --after, which prints lines for a file"},
        {"--depth-mm",
         {c.outputs.drill.depth_mm, {"mm", 0.1, 100.0}},
         "With --gcode: depth of the holes",
@@ -342,8 +306,7 @@ Examples:
         "With --gcode: height of travel between holes",
         program,
         "to be left out without --gcode"},
-       {"--svg",
-        writes(c.outputs.drawing, {Origin::drawing}),
+       {"--svg", writes(c.outputs.drawing, {Origin::drawing}),
         "Write an SVG picture of the points over the expected error of the map, or of the "
         "holes and their distances"}});
   verb.needs({"--after"}, "grid");

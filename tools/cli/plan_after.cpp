@@ -31,19 +31,16 @@ bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
   // Larger than the effect of any cause, including an omitted arm.
   constexpr double kSamePlaceMm = 400.0;
   if (!found.belts) return false;
-  return std::equal(found.belts->places.begin(),
-                    found.belts->places.end(),
-                    belts.points.begin(),
-                    belts.points.end(),
-                    [&](const BeltPlacePicture& place, const grid::BeltPoint& point) {
-                      if (place.order != point.order) return false;
-                      const auto lengths = model::lengths_at(found.belts->machine, place.at);
-                      return lengths && grid::all_of(model::kBelts, [&](model::Belt belt) {
-                               return place.bad[belt] ||
-                                      std::abs((*lengths)[belt] - point.lengths_mm[belt]) <
-                                          kSamePlaceMm;
-                             });
-                    });
+  return std::equal(
+      found.belts->places.begin(), found.belts->places.end(), belts.points.begin(),
+      belts.points.end(), [&](const BeltPlacePicture& place, const grid::BeltPoint& point) {
+        if (place.order != point.order) return false;
+        const auto lengths = model::lengths_at(found.belts->machine, place.at);
+        return lengths && grid::all_of(model::kBelts, [&](model::Belt belt) {
+                 return place.bad[belt] ||
+                        std::abs((*lengths)[belt] - point.lengths_mm[belt]) < kSamePlaceMm;
+               });
+      });
 }
 
 std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
@@ -57,8 +54,7 @@ std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
     std::string own = fmt::format(
         "  {{\"tl_mm\": null, \"tr_mm\": null, \"bl_mm\": null, \"br_mm\": null, "
         "\"commanded_x_mm\": {:g}, \"commanded_y_mm\": {:g}",
-        next.mark->x_mm + 0.0,
-        next.mark->y_mm + 0.0);
+        next.mark->x_mm + 0.0, next.mark->y_mm + 0.0);
     if (visit) own += fmt::format(", \"order\": {}", (*visit)++);
     if (!next.pulled.empty()) {
       std::vector<std::string> names;
@@ -75,8 +71,7 @@ std::string end_of(const std::string& end) {
   if (model::belt_of(end)) return fmt::format("\"{}\"", end);
   const std::size_t comma = end.find(", ");
   if (end.empty() || end.front() != '(' || comma == std::string::npos) return end;
-  return fmt::format("{{\"x_mm\": {}, \"y_mm\": {}}}",
-                     end.substr(1, comma - 1),
+  return fmt::format("{{\"x_mm\": {}, \"y_mm\": {}}}", end.substr(1, comma - 1),
                      end.substr(comma + 2, end.size() - comma - 3));
 }
 
@@ -86,9 +81,7 @@ std::string distances_of(const Diagnosis& found) {
     if (next.kind != MeasurementKind::distance || next.to.empty()) continue;
     lines +=
         fmt::format("  {{\"from\": {}, \"to\": {}, \"distance_mm\": null, \"sigma_mm\": {:g}}},\n",
-                    end_of(next.from),
-                    end_of(next.to.front()),
-                    next.sigma);
+                    end_of(next.from), end_of(next.to.front()), next.sigma);
   }
   return lines.empty() ? lines : "add to \"distances\", replacing each null\n" + lines;
 }
@@ -100,8 +93,7 @@ std::string drawing_of(const Diagnosis& found) {
   for (const BeltPlacePicture& place : found.belts->places)
     measured.push_back({place.at.x_mm - centre.x_mm, place.at.y_mm - centre.y_mm});
   const auto& a = machine.anchors;
-  return draw_follow_up(measured,
-                        follow_up_places(found),
+  return draw_follow_up(measured, follow_up_places(found),
                         {std::max(a.tr.x_mm, a.br.x_mm) - std::min(a.tl.x_mm, a.bl.x_mm),
                          std::max(a.tl.y_mm, a.tr.y_mm)});
 }
@@ -112,8 +104,7 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
   const InputFile after = open_input(options.after);
   const Diagnosis found = load_diagnosis(after);
   if (!is_of(found, read.belts)) {
-    say("{} was made from other readings than those in {}: diagnose these first.",
-        options.after,
+    say("{} was made from other readings than those in {}: diagnose these first.", options.after,
         file.name);
     return kBadInput;
   }
@@ -133,9 +124,7 @@ struct Sources {
 };
 
 /// `few`: with other files one or two readings are enough.
-void read(const InputFile& file,
-          const std::optional<Machine>& machine,
-          bool few,
+void read(const InputFile& file, const std::optional<Machine>& machine, bool few,
           Sources& sources) {
   require_kind(file, {FileKind::grid, FileKind::holes});
   const files::MeasuredOptions options{.machine = machine, .few = few};
@@ -169,10 +158,7 @@ std::vector<MarkPoint> marks_of(const grid::Measured& measured) {
 bool has_points_of(const Diagnosis& found, const grid::Measured& measured) {
   constexpr double kSamePlaceMm = 1e-3;
   const std::vector<MarkPoint> marks = marks_of(measured);
-  return std::equal(found.points.begin(),
-                    found.points.end(),
-                    marks.begin(),
-                    marks.end(),
+  return std::equal(found.points.begin(), found.points.end(), marks.begin(), marks.end(),
                     [&](const auto& pictured, const MarkPoint& mark) {
                       return std::abs(pictured.mark.x_mm - mark.x_mm) < kSamePlaceMm &&
                              std::abs(pictured.mark.y_mm - mark.y_mm) < kSamePlaceMm;
@@ -180,8 +166,7 @@ bool has_points_of(const Diagnosis& found, const grid::Measured& measured) {
 }
 
 /// Empty if the diagnosis used exactly these files.
-std::string made_from_others(const PlanAfterOptions& options,
-                             const Diagnosis& found,
+std::string made_from_others(const PlanAfterOptions& options, const Diagnosis& found,
                              const grid::Measured& measured) {
   const bool points = has_points_of(found, measured);
   const bool distances = is_diagnosis_of(found, measured.holes());
@@ -195,14 +180,12 @@ std::string made_from_others(const PlanAfterOptions& options,
   std::vector<std::string> names;
   for (const grid::MeasuredFile& file : measured.files()) names.push_back(file.name);
   return fmt::format("{} was made from other {} than those in {}: diagnose these first.\n",
-                     options.after,
-                     points || !has_grids ? "holes" : "points",
+                     options.after, points || !has_grids ? "holes" : "points",
                      fmt::join(names, " and "));
 }
 
 /// The lines for each file; readings of the machine go into the first that has any.
-std::string lines_of(const Diagnosis& found,
-                     const grid::Measured& measured,
+std::string lines_of(const Diagnosis& found, const grid::Measured& measured,
                      const std::vector<bool>& are_json) {
   const std::vector<grid::MeasuredFile>& files = measured.files();
   std::string text;
@@ -240,8 +223,8 @@ std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
   const auto lines = [&](bool is_json) {
     return lines_of(found, measured, std::vector<bool>(measured.files().size(), is_json));
   };
-  return FollowUpTexts{
-      follow_up_list(found), lines(false), lines(true), drawing_of(found, measured)};
+  return FollowUpTexts{follow_up_list(found), lines(false), lines(true),
+                       drawing_of(found, measured)};
 }
 
 Facts facts_after(const InputFile& file) {
@@ -279,8 +262,8 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
 
 std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found, const MeasuredBelts& belts) {
   if (!is_of(found, belts)) return std::nullopt;
-  return FollowUpTexts{
-      follow_up_list(found), "", points_of(found, belts) + distances_of(found), drawing_of(found)};
+  return FollowUpTexts{follow_up_list(found), "", points_of(found, belts) + distances_of(found),
+                       drawing_of(found)};
 }
 
 }  // namespace chaintrue::cli

@@ -26,14 +26,12 @@ struct ExpectedErrors {
 ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed);
 
 /// A self-contained SVG; nothing is fetched, no script runs.
-std::string draw_plan(const grid::MeasurementPlan& plan,
-                      const Bed& bed,
+std::string draw_plan(const grid::MeasurementPlan& plan, const Bed& bed,
                       const ExpectedErrors& errors);
 
 /// The next places as numbered crosses among the measured ones.
 std::string draw_follow_up(const std::vector<MarkPoint>& measured,
-                           const std::vector<FollowUpPlace>& next,
-                           const Bed& bed);
+                           const std::vector<FollowUpPlace>& next, const Bed& bed);
 
 // A plan of holes as a drawing: the sheet, the holes by name, a line for each distance to measure.
 // Same plan, same bytes.

@@ -28,9 +28,7 @@ void check(const HolesPlanRequest& request, const Bed& bed) {
 
 void require_sound(OptionProblems& problems, const HolesPlanRequest& request) {
   if (request.distances == 0) return;
-  problems.require("--distances",
-                   request.distances,
-                   grid::fewest_distances(request.edges),
+  problems.require("--distances", request.distances, grid::fewest_distances(request.edges),
                    grid::most_distances(request.holes, request.edges));
 }
 
@@ -41,12 +39,10 @@ void add_tape_options(Verb verb, HolesPlanRequest& request) {
              "plus two, and six more with --edges",
              facts::tape,
              "to be left out without --holes"},
-            {"--edges",
-             request.edges,
+            {"--edges", request.edges,
              "With --holes: also measure to the sheet's edges, so that jobs are placed "
              "correctly on the sheet",
-             facts::tape,
-             "to be left out without --holes"},
+             facts::tape, "to be left out without --holes"},
             {"--tape-sigma-mm",
              {request.tape_sigma_mm, files::kTapeSigmaMm},
              "With --holes: standard deviation (1 sigma) of a tape reading",
@@ -64,17 +60,17 @@ int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanO
   request.progress = shown_progress();
   const grid::HolesPlan plan =
       value_of(grid::plan_holes(machine, request), "chaintrue plan", kNotSupportedOrOutside);
-  Outputs outputs = {{wanted.drawing, draw_holes_plan(plan)},
-                     {wanted.page, holes_page(plan, wanted.list)},
-                     {wanted.gcode, holes_gcode(plan, wanted.drill)},
-                     {wanted.list,
-                      is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan.set)
-                                                               : workshop_list(plan)}};
+  Outputs outputs = {
+      {wanted.drawing, draw_holes_plan(plan)},
+      {wanted.page, holes_page(plan, wanted.list)},
+      {wanted.gcode, holes_gcode(plan, wanted.drill)},
+      {wanted.list, is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan.set)
+                                                             : workshop_list(plan)}};
   std::vector<MarkPoint> holes;
   for (const grid::Hole& hole : plan.set.holes)
     holes.push_back(model::identity_placement(hole.commanded));
-  add_answer(
-      holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted, outputs);
+  add_answer(holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted,
+             outputs);
   write_outputs(outputs);
   say_lines(plan_in_words(plan, request));
   return kDone;

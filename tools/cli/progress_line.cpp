@@ -11,8 +11,8 @@ namespace {
 
 std::string left_in_words(double elapsed_s, double done) {
   if (!(done > 0.0)) return "";
-  return fmt::format(
-      ", {:.0f} % done, about {:.0f} s left", 100.0 * done, elapsed_s * (1.0 - done) / done);
+  return fmt::format(", {:.0f} % done, about {:.0f} s left", 100.0 * done,
+                     elapsed_s * (1.0 - done) / done);
 }
 
 }  // namespace
@@ -48,10 +48,8 @@ std::string ProgressState::words() const {
   return words + left_in_words(now_s - step_began_s_, share);
 }
 
-RepeatedLine::RepeatedLine(std::FILE* out,
-                           std::function<std::string()> words,
-                           std::chrono::milliseconds quiet,
-                           std::chrono::milliseconds step)
+RepeatedLine::RepeatedLine(std::FILE* out, std::function<std::string()> words,
+                           std::chrono::milliseconds quiet, std::chrono::milliseconds step)
     : out_(out), words_(std::move(words)), thread_([this, quiet, step] { run(quiet, step); }) {}
 
 RepeatedLine::~RepeatedLine() {

@@ -48,9 +48,7 @@ class ProgressState {
 /// is empty after destruction.
 class RepeatedLine {
  public:
-  RepeatedLine(std::FILE* out,
-               std::function<std::string()> words,
-               std::chrono::milliseconds quiet,
+  RepeatedLine(std::FILE* out, std::function<std::string()> words, std::chrono::milliseconds quiet,
                std::chrono::milliseconds step);
   ~RepeatedLine();
   RepeatedLine(const RepeatedLine&) = delete;

@@ -53,9 +53,7 @@ Field status_field(grid::MapStatus status) {
 }
 
 /// The fields of a point; without an answer, in a table they are empty, and JSON has none.
-Fields fields_of(const QueryCommand& command,
-                 const grid::LengthMap& map,
-                 const BedPoint& point,
+Fields fields_of(const QueryCommand& command, const grid::LengthMap& map, const BedPoint& point,
                  const tl::expected<grid::LengthsAnswer, grid::MapFailure>& answer) {
   const auto names = map.length_names();
   const int digits = names.size() == 2 ? 6 : 4;
@@ -84,10 +82,7 @@ int answer_inverse(const Target& target, const QueryCommand& command) {
   if (!tool) {
     const bool of_belts = target.as<files::FittedAnchors>() != nullptr;
     const auto names = map.length_names();
-    say("{} {} mm, {} {} mm: {}",
-        words_of(names[0]),
-        command.inverse[0],
-        words_of(names[1]),
+    say("{} {} mm, {} {} mm: {}", words_of(names[0]), command.inverse[0], words_of(names[1]),
         command.inverse[1],
         of_belts && !tool.error().cause.empty() ? std::string(tool.error().cause)
                                                 : tool.error().sentence());
@@ -116,9 +111,7 @@ int answer_points(const Target& target, const QueryCommand& command) {
       text += (i == 0 ? csv_names(fields) : "") + csv_values(fields);
     }
     if (answer) continue;
-    outside += fmt::format("({}, {}): {}\n",
-                           point.x_mm,
-                           point.y_mm,
+    outside += fmt::format("({}, {}): {}\n", point.x_mm, point.y_mm,
                            of_belts ? "outside the frame of these anchors, or closer to one than "
                                       "the length of its arm"
                                     : answer.error().sentence());
@@ -163,8 +156,7 @@ void check_usage(const QueryCommand& command) {
 
 void add_query(Verb app) {
   auto [verb, c] = app.add_verb<QueryCommand>(
-      "query",
-      "Compute chain lengths for points of the bed, or the point for chain lengths",
+      "query", "Compute chain lengths for points of the bed, or the point for chain lengths",
       R"(status: inside the measured points, at their edge, extrapolated beyond them, or outside the bed (exit code 4).
 Sigmas are one standard deviation of the map at that point.
 With anchors, the answer is the lengths of the four belts as the firmware pays them out: slanted,
@@ -174,11 +166,9 @@ those two.
 Example:
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
   build/chaintrue query map.json 100 200 -1000 -450)",
-      run_query,
-      check_usage);
+      run_query, check_usage);
   verb.has(
-      {{"map",
-        required(reads(c.map)),
+      {{"map", required(reads(c.map)),
         "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter that fit wrote from "
         "a drawing; - is standard input"},
        {"coordinates", {c.coordinates, {"mm", -1e6, 1e6}}, "Pairs X Y [mm]"},

@@ -34,24 +34,19 @@ Section measured_section(const CompensationMap& map) {
   const auto row = [&table](std::string what, std::string value) {
     table.rows.push_back({{std::move(what), std::move(value)}});
   };
-  const auto bad = std::count_if(
-      contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
+  const auto bad = std::count_if(contents.points.begin(), contents.points.end(),
+                                 [](const auto& p) { return p.bad; });
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     row("holes and a tape",
-        fmt::format("{} holes, {} distances, {} of them left out",
-                    contents.points.size(),
-                    used.used + used.rejected,
-                    used.rejected));
+        fmt::format("{} holes, {} distances, {} of them left out", contents.points.size(),
+                    used.used + used.rejected, used.rejected));
     row("distances left out are predicted",
-        fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
-                    used.left_out_good.rms_mm,
+        fmt::format("within {:.2f} mm rms, {:.2f} mm at most", used.left_out_good.rms_mm,
                     used.left_out_good.maximum_mm));
     row("error of the readings",
         fmt::format("{:g} mm of tape, {:g} mm of hole; found {:.1f} times as much",
-                    used.tape_sigma_mm,
-                    contents.noise.position_mm,
-                    contents.noise.factor_found));
+                    used.tape_sigma_mm, contents.noise.position_mm, contents.noise.factor_found));
   } else {
     row("points", fmt::format("{}, {} of them left out", contents.points.size(), bad));
     row("points left out are predicted",
@@ -59,8 +54,7 @@ Section measured_section(const CompensationMap& map) {
                     contents.accuracy.leave_one_out.tool.rms_mm,
                     contents.accuracy.leave_one_out.tool.maximum_mm));
     row("error of the readings",
-        fmt::format("{:.2f} mm in a length, {:.2f} mm in a position ({})",
-                    contents.noise.length_mm,
+        fmt::format("{:.2f} mm in a length, {:.2f} mm in a position ({})", contents.noise.length_mm,
                     contents.noise.position_mm,
                     contents.noise.source == grid::NoiseSource::stated
                         ? std::string("as given")
@@ -207,16 +201,11 @@ void add_report(Verb app) {
   build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json
   build/chaintrue report diagnosis.json -o diagnosis.html)",
       run_report);
-  verb.has({{"file",
-             required(reads(c.input)),
+  verb.has({{"file", required(reads(c.input)),
              "A chaintrue_map, chaintrue_diagnosis or chaintrue_anchors file; - is standard input"},
-            {"-o,--output",
-             required(writes(c.output, {Origin::page})),
+            {"-o,--output", required(writes(c.output, {Origin::page})),
              "The HTML file; - is standard output"},
-            {"--certificate",
-             c.certificate,
-             "One page of a map, to print",
-             facts::map,
+            {"--certificate", c.certificate, "One page of a map, to print", facts::map,
              "to be left out, because only a map has a certificate"},
             {"--date", c.date, "A date to print below the title, as in 2026-11-22"}});
 }

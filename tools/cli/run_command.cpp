@@ -46,8 +46,8 @@ std::string did_you_mean(CLI::App& app, const Words& words) {
     const std::string near = files::nearest(words[at], verbs);
     const std::string list = fmt::format("{} --help lists them all.\n", verb_name);
     if (near.empty()) return fmt::format("There is no {} {}. {}", verb_name, words[at], list);
-    return fmt::format(
-        "There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name, near);
+    return fmt::format("There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name,
+                       near);
   }
   std::vector<std::string> known = long_names(parts_of(*verb).options);
   grid::append_all(known, long_names(parts_of(app).options));
@@ -57,8 +57,8 @@ std::string did_you_mean(CLI::App& app, const Words& words) {
     if (grid::contains(known, option)) continue;
     const std::string near = files::nearest(option, known);
     if (near.empty()) {
-      return fmt::format(
-          "{} has no option {}. {} --help lists them all.\n", verb_name, option, verb_name);
+      return fmt::format("{} has no option {}. {} --help lists them all.\n", verb_name, option,
+                         verb_name);
     }
     return fmt::format("{} has no option {}. Did you mean {}?\n", verb_name, option, near);
   }

@@ -33,22 +33,18 @@ SettingsOf settings_of(ControllerKind kind) {
 }
 
 /// The kind of controller that has `now`. \throws InputError if none does.
-ControllerKind kind_with(const Machine& stated,
-                         const SettingsFile& now,
+ControllerKind kind_with(const Machine& stated, const SettingsFile& now,
                          const ControllerKind* in_place) {
   const ControllerKind of_file = now.read.machine.controller.kind;
   if (settings_of(of_file) == SettingsOf::none) {
-    refuse(now.name,
-           "/controller",
-           "a machine without a controller",
+    refuse(now.name, "/controller", "a machine without a controller",
            "a controller's settings; if the controller uses the machine file itself, give it with "
            "--machine");
   }
   const ControllerKind of_map = in_place != nullptr ? *in_place : stated.controller.kind;
   if (settings_of(of_map) == SettingsOf::none && in_place == nullptr) return of_file;
   if (settings_of(of_map) == settings_of(of_file)) return of_map;
-  refuse(now.name,
-         fmt::format("settings of a {} controller", name_of(of_file)),
+  refuse(now.name, fmt::format("settings of a {} controller", name_of(of_file)),
          in_place != nullptr
              ? fmt::format("those of a {}, as given by --controller", name_of(of_map))
              : fmt::format("those of a {}, which the map was measured with; if another controller "
@@ -59,8 +55,7 @@ ControllerKind kind_with(const Machine& stated,
 void refuse_other_chain(const std::vector<files::SettingChange>& changes, const std::string& file) {
   const auto of_chain = files::of_the_chain(changes);
   if (of_chain.empty()) return;
-  refuse(file,
-         files::in_words(of_chain),
+  refuse(file, files::in_words(of_chain),
          "the values that the map was measured with, because they define the meaning of a chain "
          "length: restore them, or measure and fit again");
 }
@@ -88,8 +83,7 @@ SettingsFile parse_settings_file(const std::string& path, const std::string& tex
   return {file, files::parse_groundcontrol(text, file)};
 }
 
-Machine with_settings(const Machine& stated,
-                      const SettingsFile& now,
+Machine with_settings(const Machine& stated, const SettingsFile& now,
                       const ControllerKind* in_place) {
   const Machine& file = now.read.machine;
   const bool names_none = settings_of(stated.controller.kind) == SettingsOf::none;
@@ -104,8 +98,7 @@ Machine with_settings(const Machine& stated,
   }
   if (names_none) {
     say("The map has no controller; a {} with the settings in {} is used.",
-        name_of(machine.controller.kind),
-        now.name);
+        name_of(machine.controller.kind), now.name);
     return machine;
   }
   Machine before = stated;
@@ -118,16 +111,13 @@ Machine with_settings(const Machine& stated,
   } else {
     say("The settings in {} differ from those that the map was measured with ({}); the new ones "
         "are used.",
-        now.name,
-        files::in_words(changes));
+        now.name, files::in_words(changes));
   }
   return machine;
 }
 
-CompensationMap with_settings_of(const std::string& settings,
-                                 const std::string& map_name,
-                                 const CompensationMap& map,
-                                 grid::Measured& measured) {
+CompensationMap with_settings_of(const std::string& settings, const std::string& map_name,
+                                 const CompensationMap& map, grid::Measured& measured) {
   const auto stated = grid::stated_machine(map);
   if (!stated) {
     refuse(map_name, "a map without a machine", "no --settings: its points are chain lengths");
@@ -135,8 +125,7 @@ CompensationMap with_settings_of(const std::string& settings,
   const SettingsFile file = read_settings_file(settings);
   const model::Controller now = with_settings(*stated, file, nullptr).controller;
   if (now.kind == ControllerKind::fluidnc_wallplotter) {
-    refuse(file.name,
-           "anchors of a wall plotter",
+    refuse(file.name, "anchors of a wall plotter",
            "the new points with the machine that executed the commands: give it with --machine");
   }
   measured = grid::commanded_with(measured, now);
@@ -186,28 +175,20 @@ std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
   if (!changed) return std::nullopt;
   const std::string differ = files::in_words(differ_from_map(changed->in_force));
   constexpr std::string_view kSentences[][3] = {
-      {"Only some of the numbers from export groundcontrol have been typed in",
-       "these",
+      {"Only some of the numbers from export groundcontrol have been typed in", "these",
        "Type in the others too, and use the map from export groundcontrol --map-after."},
       {"The settings have changed since this map was measured",
        "the numbers from export groundcontrol",
        "Use the map from export groundcontrol --map-after."},
       {"Only some of the numbers that this map is for are in the controller",
-       "the others unchanged",
-       "Type in the others too."},
-      {"The numbers that this map is for are not in the controller",
-       "the previous ones",
+       "the others unchanged", "Type in the others too."},
+      {"The numbers that this map is for are not in the controller", "the previous ones",
        "Type them in, or use the map that they were exported from."}};
   const auto& [what, with, to_do] = kSentences[(before ? 2 : 0) + (changed->all ? 1 : 0)];
   changed->check.sentence = fmt::format(
       "{}: the new points fit {} ({}) to {:.2f} mm rms in a chain, the map's settings to {:.2f} "
       "mm. {} {}",
-      what,
-      with,
-      differ,
-      changed->with_these_mm,
-      changed->as_it_is_mm,
-      to_do,
+      what, with, differ, changed->with_these_mm, changed->as_it_is_mm, to_do,
       changed->check.sentence);
   return std::move(changed->check);
 }

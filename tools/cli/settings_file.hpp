@@ -34,8 +34,7 @@ SettingsFile parse_settings_file(const std::string& path, const std::string& tex
 /// settings are read; or null
 /// \throws InputError for settings of another kind of controller, or that change the meaning
 /// of the map's chain lengths.
-[[nodiscard]] Machine with_settings(const Machine& stated,
-                                    const SettingsFile& now,
+[[nodiscard]] Machine with_settings(const Machine& stated, const SettingsFile& now,
                                     const ControllerKind* in_place);
 
 /// map.json becomes map.after.json: where export writes the map for the typed-in numbers by
@@ -69,9 +68,7 @@ std::optional<model::ControllerSettings> settings_before(const std::string& map)
 /// others do not explain the points either. The others are those of `before`, the settings before
 /// the map's numbers; else those of export groundcontrol.
 [[nodiscard]] std::optional<grid::Check> with_typed_settings(
-    const CompensationMap& map,
-    const grid::Measured& measured,
-    const grid::Check& found,
+    const CompensationMap& map, const grid::Measured& measured, const grid::Check& found,
     std::optional<model::ControllerSettings> before = {});
 
 }  // namespace chaintrue::cli

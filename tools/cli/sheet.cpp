@@ -22,22 +22,16 @@ struct DrillPlace {
 };
 
 /// A rapid above each place, down and up again.
-std::string drill_gcode(std::string_view what,
-                        const std::vector<DrillPlace>& places,
+std::string drill_gcode(std::string_view what, const std::vector<DrillPlace>& places,
                         const DrillOptions& options) {
   std::string text = fmt::format(
       "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Check that all holes "
       "are on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
-      what,
-      options.depth_mm,
-      options.clearance_mm);
+      what, options.depth_mm, options.clearance_mm);
   for (const DrillPlace& place : places) {
-    text += fmt::format("({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n",
-                        place.name,
-                        whole(place.at.x_mm),
-                        whole(place.at.y_mm),
-                        -options.depth_mm,
-                        options.clearance_mm);
+    text +=
+        fmt::format("({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n", place.name, whole(place.at.x_mm),
+                    whole(place.at.y_mm), -options.depth_mm, options.clearance_mm);
   }
   return text + "G0 X0 Y0\nM2\n";
 }
@@ -48,9 +42,7 @@ double reachable_mm(const Bed& bed) {
   return std::min(kReachableMm, 0.2 * std::min(bed.width_mm, bed.height_mm));
 }
 
-void require_margin(OptionProblems& problems,
-                    double margin_mm,
-                    const Bed& bed,
+void require_margin(OptionProblems& problems, double margin_mm, const Bed& bed,
                     double least_side_mm) {
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
   problems.require("--margin-mm", margin_mm, 0.0, std::max(0.0, half - 0.5 * least_side_mm));
@@ -126,13 +118,10 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   std::string text = fmt::format(
       "(chaintrue plan: {} marks, a stop at each)\n(Zero is the middle of the bed.)\nG21 G90 G17 "
       "G94\nG0 Z{:g}\n",
-      visits_of(sheet).size(),
-      options.clearance_mm);
+      visits_of(sheet).size(), options.clearance_mm);
   for (const SheetVisit& visit : visits_of(sheet)) {
     text += fmt::format("G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then continue)\n",
-                        whole(visit.mark.x_mm),
-                        whole(visit.mark.y_mm),
-                        visit.number);
+                        whole(visit.mark.x_mm), whole(visit.mark.y_mm), visit.number);
   }
   return text + "G0 X0 Y0\nM2\n";
 }
@@ -148,36 +137,27 @@ bool is_json_wanted(bool json, const std::string& output) {
   return output == "-" ? json : output.ends_with(".json");
 }
 
-Outputs sheet_outputs(const Sheet& sheet,
-                      const Machine& machine,
-                      const StatedNoise& noise,
-                      const PlanOutputs& outputs,
-                      const std::string& expected) {
-  Outputs written = {{outputs.list,
-                      is_json_wanted(outputs.json, outputs.list) ? sheet_json(sheet, machine, noise)
-                                                                 : sheet_csv(sheet)},
-                     {outputs.page, sheet_page(sheet, machine, outputs.list)},
-                     {outputs.gcode, sheet_gcode(sheet, outputs.drill)}};
+Outputs sheet_outputs(const Sheet& sheet, const Machine& machine, const StatedNoise& noise,
+                      const PlanOutputs& outputs, const std::string& expected) {
+  Outputs written = {
+      {outputs.list, is_json_wanted(outputs.json, outputs.list) ? sheet_json(sheet, machine, noise)
+                                                                : sheet_csv(sheet)},
+      {outputs.page, sheet_page(sheet, machine, outputs.list)},
+      {outputs.gcode, sheet_gcode(sheet, outputs.drill)}};
   add_answer(sheet.marks, sheet.visits, expected, outputs, written);
   return written;
 }
 
-void add_answer(const std::vector<MarkPoint>& places,
-                const std::vector<std::size_t>& visits,
-                const std::string& expected,
-                const PlanOutputs& outputs,
-                Outputs& written) {
+void add_answer(const std::vector<MarkPoint>& places, const std::vector<std::size_t>& visits,
+                const std::string& expected, const PlanOutputs& outputs, Outputs& written) {
   if (!outputs.json || outputs.list == "-") return;
   std::vector<std::string> pairs;
   for (const MarkPoint& place : places)
     pairs.push_back(fmt::format("[{}, {}]", place.x_mm, place.y_mm));
   std::vector<std::size_t> order = visits;
   if (order.empty()) order = grid::numbers_below(places.size());
-  written.push_back({"-",
-                     fmt::format("{{\"marks\": [{}],\n\"visits\": [{}],\n{}}}\n",
-                                 fmt::join(pairs, ", "),
-                                 fmt::join(order, ", "),
-                                 expected)});
+  written.push_back({"-", fmt::format("{{\"marks\": [{}],\n\"visits\": [{}],\n{}}}\n",
+                                      fmt::join(pairs, ", "), fmt::join(order, ", "), expected)});
 }
 
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine) {

@@ -28,9 +28,7 @@ inline constexpr double kReachableMm = 100.0;
 double reachable_mm(const Bed& bed);
 
 /// --margin-mm leaves a bed at least this wide and high for marks.
-void require_margin(OptionProblems& problems,
-                    double margin_mm,
-                    const Bed& bed,
+void require_margin(OptionProblems& problems, double margin_mm, const Bed& bed,
                     double least_side_mm = 100.0);
 
 /// The words of --measure, and the default for a machine: without a controller of known kinematics
@@ -100,19 +98,13 @@ struct PlanOutputs {
 
 /// The list and, if requested, the page, the program and the answer. \param expected as for
 /// add_answer
-Outputs sheet_outputs(const Sheet& sheet,
-                      const Machine& machine,
-                      const StatedNoise& noise,
-                      const PlanOutputs& outputs,
-                      const std::string& expected);
+Outputs sheet_outputs(const Sheet& sheet, const Machine& machine, const StatedNoise& noise,
+                      const PlanOutputs& outputs, const std::string& expected);
 
 /// With --json, where the list goes into a file: the places in mm, numbers of places in the order of
 /// the visits (empty: each once), and members of an object on what is expected.
-void add_answer(const std::vector<MarkPoint>& places,
-                const std::vector<std::size_t>& visits,
-                const std::string& expected,
-                const PlanOutputs& outputs,
-                Outputs& written);
+void add_answer(const std::vector<MarkPoint>& places, const std::vector<std::size_t>& visits,
+                const std::string& expected, const PlanOutputs& outputs, Outputs& written);
 
 /// The next step: fill in the list and fit it.
 void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);

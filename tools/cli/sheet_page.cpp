@@ -68,11 +68,8 @@ std::string tables_of(const std::string& head, const std::vector<std::string>& r
   return text;
 }
 
-std::string page_of(const std::string& title,
-                    const std::string& bed,
-                    std::string_view how,
-                    const std::vector<std::string>& steps,
-                    const std::string& head,
+std::string page_of(const std::string& title, const std::string& bed, std::string_view how,
+                    const std::vector<std::string>& steps, const std::string& head,
                     const std::vector<std::string>& rows) {
   std::string list = "<ol>\n";
   for (const std::string& step : steps) list += fmt::format("<li>{}</li>\n", escaped(step));
@@ -81,10 +78,10 @@ std::string page_of(const std::string& title,
   constexpr std::size_t kFewLines = 24;
   const std::string top =
       rows.size() <= kFewLines
-          ? fmt::format(
-                "{}\n<div class=\"drawings\"><div>{}</div><div>{}</div></div>", bed, list, how)
-          : fmt::format(
-                "<div class=\"drawings\"><div>{}</div><div>{}</div></div>\n{}", bed, how, list);
+          ? fmt::format("{}\n<div class=\"drawings\"><div>{}</div><div>{}</div></div>", bed, list,
+                        how)
+          : fmt::format("<div class=\"drawings\"><div>{}</div><div>{}</div></div>\n{}", bed, how,
+                        list);
   return fmt::format(
       R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
@@ -95,10 +92,7 @@ std::string page_of(const std::string& title,
 {2}
 {3}</body></html>
 )",
-      escaped(title),
-      kSheetStyle,
-      top,
-      tables_of(head, rows));
+      escaped(title), kSheetStyle, top, tables_of(head, rows));
 }
 
 /// The bed as it hangs, numbered marks along the way from one to the next.
@@ -108,12 +102,10 @@ std::string drawing_of(const Sheet& sheet, const Bed& bed) {
   const BedView view{bed, {kEdge, kEdge}, kDrawingWide};
   const auto x = [&](MarkPoint at) { return view.x(at.x_mm); };
   const auto y = [&](MarkPoint at) { return view.y(at.y_mm); };
-  Svg svg(kDrawingWide + 2.0 * kEdge,
-          view.high() + 2.0 * kEdge,
-          "role=\"img\"",
+  Svg svg(kDrawingWide + 2.0 * kEdge, view.high() + 2.0 * kEdge, "role=\"img\"",
           "The bed with its numbered marks");
-  svg.rectangle(
-      kEdge, kEdge, kDrawingWide, view.high(), "fill=\"none\" stroke=\"#111\" stroke-width=\"2\"");
+  svg.rectangle(kEdge, kEdge, kDrawingWide, view.high(),
+                "fill=\"none\" stroke=\"#111\" stroke-width=\"2\"");
   const std::vector<SheetVisit> visits = visits_of(sheet);
   std::string walk;
   for (const SheetVisit& visit : visits)
@@ -124,21 +116,18 @@ std::string drawing_of(const Sheet& sheet, const Bed& bed) {
   double nearest = 80.0;
   for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      nearest = std::min(nearest,
-                         view.scale() * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
-                                                   sheet.marks[i].y_mm - sheet.marks[k].y_mm));
+      nearest =
+          std::min(nearest, view.scale() * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
+                                                      sheet.marks[i].y_mm - sheet.marks[k].y_mm));
     }
   }
   const double radius = std::clamp(0.45 * nearest, 3.0, 16.0);
   for (const SheetVisit& visit : visits) {
     if (visit.again != 0) continue;
-    svg.circle(
-        x(visit.mark), y(visit.mark), radius, "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.5\"");
-    svg.text(x(visit.mark),
-             y(visit.mark) + 0.35 * radius,
-             fmt::format("{}", visit.number),
-             "middle",
-             fmt::format(" font-size=\"{:.1f}\"", radius));
+    svg.circle(x(visit.mark), y(visit.mark), radius,
+               "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.5\"");
+    svg.text(x(visit.mark), y(visit.mark) + 0.35 * radius, fmt::format("{}", visit.number),
+             "middle", fmt::format(" font-size=\"{:.1f}\"", radius));
   }
   return svg.finished();
 }
@@ -160,16 +149,13 @@ std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::st
   const bool places = sheet.of == SheetOf::places;
   const std::string head =
       fmt::format("<th>mark</th><th>{0}x, mm</th><th>{0}y, mm</th><th>{1}</th><th>{2}</th>",
-                  places ? "sent to " : "",
-                  places ? "measured x, mm" : "left chain, mm",
+                  places ? "sent to " : "", places ? "measured x, mm" : "left chain, mm",
                   places ? "measured y, mm" : "right chain, mm");
   const std::vector<SheetVisit> visits = visits_of(sheet);
   std::vector<std::string> rows;
   for (const SheetVisit& visit : visits) {
     rows.push_back(fmt::format("<tr><td>{}</td><td>{:.0f}</td><td>{:.0f}</td>{}</tr>\n",
-                               visit.name(),
-                               visit.mark.x_mm + 0.0,
-                               visit.mark.y_mm + 0.0,
+                               visit.name(), visit.mark.x_mm + 0.0, visit.mark.y_mm + 0.0,
                                blank_cells(2)));
   }
   std::vector<std::string> steps =
@@ -190,16 +176,11 @@ std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::st
                : ""));
   }
   steps.push_back(typed_into(list));
-  return page_of(
-      second == 0
-          ? fmt::format("{} marks for {}", sheet.marks.size(), machine.name)
-          : fmt::format(
-                "{} marks, {} of them twice, for {}", sheet.marks.size(), second, machine.name),
-      drawing_of(sheet, machine.bed),
-      how_to(places ? "middle_lines" : "chain_length"),
-      steps,
-      head,
-      rows);
+  return page_of(second == 0 ? fmt::format("{} marks for {}", sheet.marks.size(), machine.name)
+                             : fmt::format("{} marks, {} of them twice, for {}", sheet.marks.size(),
+                                           second, machine.name),
+                 drawing_of(sheet, machine.bed), how_to(places ? "middle_lines" : "chain_length"),
+                 steps, head, rows);
 }
 
 std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
@@ -209,21 +190,18 @@ std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
                                escaped(plan.set.holes[distance.from].name),
                                distance.edge ? fmt::format("{} edge", name(*distance.edge))
                                              : escaped(plan.set.holes[distance.to].name),
-                               distance.distance_mm,
-                               blank_cells(1)));
+                               distance.distance_mm, blank_cells(1)));
   }
   return page_of(
       fmt::format("{} holes for {}", plan.set.holes.size(), plan.set.machine->name),
-      draw_holes_plan(plan),
-      how_to("tape_and_hook"),
+      draw_holes_plan(plan), how_to("tape_and_hook"),
       {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to "
        "each; zero is the middle of the bed.",
        "Measure from centre to centre. The hook at the tape's end has play, so hold the 100 mm "
        "mark at the first hole, write down the tape's reading, and fit with --hook-offset-mm 100.",
        "Check every number twice: one misread distance does more harm than a missing hole.",
        typed_into(list)},
-      "<th>from</th><th>to</th><th>about, mm</th><th>tape reading, mm</th>",
-      rows);
+      "<th>from</th><th>to</th><th>about, mm</th><th>tape reading, mm</th>", rows);
 }
 
 }  // namespace chaintrue::cli

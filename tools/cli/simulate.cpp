@@ -36,9 +36,7 @@ int simulate_session(const SimulateOptions& options, const Machine& machine) {
   auto session = synthetic::generate(machine, spec, shown_progress());
   if (!session) {
     say("chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}",
-        session.error().place.x_mm,
-        session.error().place.y_mm,
-        session.error().sentence());
+        session.error().place.x_mm, session.error().place.y_mm, session.error().sentence());
     return kNotSupportedOrOutside;
   }
   session->grid.name = options.title();
@@ -62,10 +60,7 @@ int simulate_places(const SimulateOptions& options, const Machine& machine) {
   for (const auto& [index, reason] : read.unreachable) {
     say("chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is "
         "left out: {}",
-        options.points,
-        index,
-        visits[index].position.x_mm,
-        visits[index].position.y_mm,
+        options.points, index, visits[index].position.x_mm, visits[index].position.y_mm,
         model::sentence_of(reason));
   }
   write_output(options.output, files::write_grid(read.grid));
@@ -117,15 +112,13 @@ std::optional<model::Model> model_of(std::string_view word) {
 void add_simulate(Verb app) {
   using namespace facts;
   auto [verb, c] = app.add_verb<SimulateOptions>(
-      "simulate",
-      "Simulate measurements on a machine with hidden effects",
+      "simulate", "Simulate measurements on a machine with hidden effects",
       R"(Examples:
   build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm 8 --length-noise-mm 0.2 --position-noise-mm 0.3 --repeats 6 --effect chain_pitch_error:left:elongation=0.0012 --seed 1 -o grid.json --answer answer.json
   printf 'x_mm,y_mm\n0,0\n' | build/chaintrue simulate --machine fixtures/machines/classic.json --points -
   build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances 20 --tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json
   build/chaintrue simulate --belts fixtures/belts/thirty_one_places.json --grid 9x9 --effect belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json)",
-      run_simulate,
-      [](const SimulateOptions& own) {
+      run_simulate, [](const SimulateOptions& own) {
         if (!own.belts.empty() && own.grid.empty()) {
           usage_error("simulate", "--belts needs --grid, columns x rows of places");
         }
@@ -133,27 +126,23 @@ void add_simulate(Verb app) {
   auto machine = verb.add_choice("machine");
   machine.has(
       {{"--machine", reads(c.machine), "The chaintrue_machine file as its owner has it"},
-       {"--belts",
-        reads(c.belts),
+       {"--belts", reads(c.belts),
         "A router on four belts instead: a chaintrue_belts or chaintrue_anchors file with its "
         "settings"}});
   auto where = verb.add_choice("where");
   where.has({{"--grid", c.grid, "Columns x rows of marks, as in 7x4"},
              {"--random", {c.random_points, {"", 1.0, 1e6}}, "Number of marks at random positions"},
              {"--marks", reads(c.marks), "CSV of marks (x_mm, y_mm), as plan writes it"},
-             {"--points",
-              reads(c.points),
+             {"--points", reads(c.points),
               "CSV of true positions, with readings without noise or rounding"},
              {"--holes",
               {c.holes.holes, {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles}},
               "Number of holes, placed as by chaintrue plan --holes, measured with a tape"}});
   verb.has(
-      {{"--pulls",
-        c.pulls,
+      {{"--pulls", c.pulls,
         "With --belts: measure all places once with each relative pull, such as 1,1.6; "
         "sizes of effects refer to the smallest",
-        belts,
-        "to be left out, because it applies to four belts only"},
+        belts, "to be left out, because it applies to four belts only"},
        {"--spacing",
         {c.spacing, spacing, "regular", "regular or chebyshev"},
         "With --grid: regular or chebyshev (denser at the edges)",
@@ -165,20 +154,15 @@ void add_simulate(Verb app) {
         "hundreds of mm",
         lattice | scattered | tape,
         "to be left out, because the places are given or follow from the belts"},
-       {"--without-corners",
-        c.spec.design.without_corners,
-        "Leave out the four corners",
-        lattice | scattered,
-        "to be left out, because it applies to simulated marks only"},
+       {"--without-corners", c.spec.design.without_corners, "Leave out the four corners",
+        lattice | scattered, "to be left out, because it applies to simulated marks only"},
        {"--region",
         {c.spec.design.region, synthetic::region, "whole", "whole, left, right, top or bottom"},
         "Part of the bed with marks: whole, left, right, top or bottom",
         session,
         "to be left out, because it applies to simulated marks only"},
        {"--order",
-        {c.spec.order,
-         synthetic::visiting_order,
-         "rows",
+        {c.spec.order, synthetic::visiting_order, "rows",
          "rows, columns, serpentine_rows, serpentine_columns or random"},
         "Order of visits: rows, columns, serpentine_rows, serpentine_columns or random",
         session,
@@ -203,8 +187,7 @@ void add_simulate(Verb app) {
         "Standard deviation (1 sigma) of each coordinate",
         session,
         "to be left out, because it applies to measured marks only"},
-       {"--heavy-tails",
-        c.spec.noise.heavy_tails,
+       {"--heavy-tails", c.spec.noise.heavy_tails,
         "Draw noise from Student's t (4 degrees of freedom) with the same standard deviation",
         session | belts,
         "to be left out, because it applies to the noise of lengths and marks only"},
@@ -244,70 +227,59 @@ void add_simulate(Verb app) {
         facts::drawn,
         "to be left out, because readings at given places have no errors"}});
   add_tape_options(verb, c.holes);
-  verb.has({{"--hook-offset-mm",
-             {c.tape_zero_offset_mm, files::kTapeZeroOffsetMm},
-             "With --holes: zero error of the tape, added to every reading",
-             tape,
-             "to be left out without --holes"},
-            {"--tape-rounding-mm",
-             {c.tape_rounding_mm, {"mm", 0.0, 100.0}},
-             "With --holes: readings are rounded to whole multiples",
-             tape,
-             "to be left out without --holes"},
-            {"--effect",
-             c.effects,
-             "Hidden effect id:side:key=value,... (- for no side; see `chaintrue effects`, "
-             "for --belts docs/maslow4.md)"},
-            {"--effects",
-             reads(c.declared),
-             "chaintrue_effect files: declared effects that --effect may name; the grid's machine "
-             "contains them",
-             session | places | tape,
-             "to be left out, because declared effects act on two chains"},
-            {"--offset",
-             c.offsets,
-             "Hidden offset of a setting, true minus assumed, such as motor_left_x_mm=1.5",
-             facts::drawn,
-             "to be left out, because readings at given places use the machine file unchanged"},
-            {"--draw-settings",
-             c.spec.draw_settings,
-             "Draw motors and zeros from the machine's uncertainty",
-             session | tape,
-             "to be left out, because nothing is drawn for belts or at given places"},
-            {"--sheet-shift-mm",
-             {c.sheet_shift_mm, {"mm", 0.0, 1000.0}},
-             "Standard deviation (1 sigma) of the sheet's placement",
-             session,
-             "to be left out, because it applies to a sheet with marks only"},
-            {"--sheet-rotation-mrad",
-             {c.sheet_rotation_mrad, {"mrad", 0.0, 500.0}},
-             "Standard deviation (1 sigma) of the sheet's placement",
-             session,
-             "to be left out, because it applies to a sheet with marks only"},
-            {"--model",
-             {c.spec.model,
-              model_of,
-              "elastic",
-              fmt::format("one of {}", fmt::join(files::words_of(files::kModels), ", "))},
-             "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d",
-             session | places,
-             "to be left out, because it applies to chain lengths only"},
-            {"--seed",
-             {c.spec.seed, {"", 0.0, 9e15}},
-             "Same seed, same bytes",
-             facts::drawn,
-             "to be left out, because nothing is drawn at given places"},
-            {"--name", c.name, "Name of the grid"},
-            {"-o,--output",
-             writes(c.output, {Origin::measured}),
-             "chaintrue_grid file (with --holes: chaintrue_holes, with --belts: chaintrue_belts); "
-             "- is standard output"},
-            {"--answer",
-             writes(c.answer, {Origin::answer}),
-             "Write what was hidden to this file",
-             session | tape,
-             "to be left out, because nothing is hidden at given places, and for belts there is "
-             "no such file"}});
+  verb.has(
+      {{"--hook-offset-mm",
+        {c.tape_zero_offset_mm, files::kTapeZeroOffsetMm},
+        "With --holes: zero error of the tape, added to every reading",
+        tape,
+        "to be left out without --holes"},
+       {"--tape-rounding-mm",
+        {c.tape_rounding_mm, {"mm", 0.0, 100.0}},
+        "With --holes: readings are rounded to whole multiples",
+        tape,
+        "to be left out without --holes"},
+       {"--effect", c.effects,
+        "Hidden effect id:side:key=value,... (- for no side; see `chaintrue effects`, "
+        "for --belts docs/maslow4.md)"},
+       {"--effects", reads(c.declared),
+        "chaintrue_effect files: declared effects that --effect may name; the grid's machine "
+        "contains them",
+        session | places | tape, "to be left out, because declared effects act on two chains"},
+       {"--offset", c.offsets,
+        "Hidden offset of a setting, true minus assumed, such as motor_left_x_mm=1.5", facts::drawn,
+        "to be left out, because readings at given places use the machine file unchanged"},
+       {"--draw-settings", c.spec.draw_settings,
+        "Draw motors and zeros from the machine's uncertainty", session | tape,
+        "to be left out, because nothing is drawn for belts or at given places"},
+       {"--sheet-shift-mm",
+        {c.sheet_shift_mm, {"mm", 0.0, 1000.0}},
+        "Standard deviation (1 sigma) of the sheet's placement",
+        session,
+        "to be left out, because it applies to a sheet with marks only"},
+       {"--sheet-rotation-mrad",
+        {c.sheet_rotation_mrad, {"mrad", 0.0, 500.0}},
+        "Standard deviation (1 sigma) of the sheet's placement",
+        session,
+        "to be left out, because it applies to a sheet with marks only"},
+       {"--model",
+        {c.spec.model, model_of, "elastic",
+         fmt::format("one of {}", fmt::join(files::words_of(files::kModels), ", "))},
+        "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d",
+        session | places,
+        "to be left out, because it applies to chain lengths only"},
+       {"--seed",
+        {c.spec.seed, {"", 0.0, 9e15}},
+        "Same seed, same bytes",
+        facts::drawn,
+        "to be left out, because nothing is drawn at given places"},
+       {"--name", c.name, "Name of the grid"},
+       {"-o,--output", writes(c.output, {Origin::measured}),
+        "chaintrue_grid file (with --holes: chaintrue_holes, with --belts: chaintrue_belts); "
+        "- is standard output"},
+       {"--answer", writes(c.answer, {Origin::answer}), "Write what was hidden to this file",
+        session | tape,
+        "to be left out, because nothing is hidden at given places, and for belts there is "
+        "no such file"}});
   add_option_check(verb, c, check_words);
 }
 

@@ -37,9 +37,7 @@ StatedBelts belts_of(const std::string& path) {
     stated.machine = load_belts(file, "a simulation").belts.machine;
   }
   if (!stated.machine.anchors_known) {
-    refuse(file.name,
-           is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
-           "",
+    refuse(file.name, is_fitted ? "/fit/machine/anchors" : "/machine/anchors", "",
            "x_mm and y_mm of all four anchors, which the simulation needs; chaintrue "
            "fit finds them");
   }
@@ -60,9 +58,7 @@ void add_causes(std::vector<AppliedEffect> causes, synthetic::BeltsSpec& spec) {
 void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
   const auto size = files::pair_of(text, 'x', 2, 100);
   if (!size)
-    return problems.add("--grid",
-                        text,
-                        "columns x rows of places, 2 to 100 of each, as in 9x7",
+    return problems.add("--grid", text, "columns x rows of places, 2 to 100 of each, as in 9x7",
                         ProblemKind::bad_syntax);
   spec.columns = (*size)[0];
   spec.rows = (*size)[1];
@@ -78,8 +74,7 @@ void take_offset(const std::string& text, BeltMachine& truth, OptionProblems& pr
   const bool is_free =
       belt && *belt != model::Belt::bl && (is_x || (is_y && model::is_upper(*belt)));
   if (!is_free) {
-    problems.add("--offset",
-                 text,
+    problems.add("--offset", text,
                  "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, true minus the file's value, as "
                  "in tl_x_mm=5",
                  ProblemKind::bad_syntax);
@@ -112,17 +107,15 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
   for (const model::MachineProblem& problem :
        model::effects::problems_in(model::belts::belt_effects(), spec.hidden)) {
     std::size_t index = 0;
-    std::from_chars(
-        problem.parameter.data() + 1, problem.parameter.data() + problem.parameter.size(), index);
+    std::from_chars(problem.parameter.data() + 1,
+                    problem.parameter.data() + problem.parameter.size(), index);
     // Malformed effects are already reported.
     if (spec.hidden[index].effect.empty()) continue;
-    problems.add("--effect",
-                 problem.value + " in " + options.effects[index],
-                 problem.expected,
+    problems.add("--effect", problem.value + " in " + options.effects[index], problem.expected,
                  ProblemKind::impossible);
   }
-  require_bad_points(
-      options, grid::as_size(spec.columns) * grid::as_size(spec.rows), "places", problems);
+  require_bad_points(options, grid::as_size(spec.columns) * grid::as_size(spec.rows), "places",
+                     problems);
   return spec;
 }
 
@@ -139,9 +132,7 @@ int simulate_the_belts(const SimulateOptions& options) {
   auto made = synthetic::simulate_belts(stated.machine, truth, spec);
   if (!made) {
     say("chaintrue simulate: the command ({:.1f}, {:.1f}) mm cannot be reached: {}",
-        made.error().place.x_mm,
-        made.error().place.y_mm,
-        made.error().sentence());
+        made.error().place.x_mm, made.error().place.y_mm, made.error().sentence());
     return kNotSupportedOrOutside;
   }
   made->name = options.title();

@@ -28,16 +28,14 @@ std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
   for (const synthetic::SettingOffset& offset : offsets) {
     if (offset.setting < model::Setting::sheet_x_mm || options.holes.edges) continue;
     problems.add(
-        "--offset",
-        std::string(model::name(offset.setting)),
+        "--offset", std::string(model::name(offset.setting)),
         "a setting of the machine; without --edges the distances do not depend on the sheet",
         ProblemKind::unknown_word);
   }
   return offsets;
 }
 
-synthetic::HolesSpec spec_of(const SimulateOptions& options,
-                             const Machine& stated,
+synthetic::HolesSpec spec_of(const SimulateOptions& options, const Machine& stated,
                              OptionProblems& problems) {
   synthetic::HolesSpec spec;
   spec.hidden = parse_effects(options.effects, stated, problems);

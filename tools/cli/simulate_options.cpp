@@ -18,8 +18,8 @@ namespace {
 void take_size(const std::string& grid, synthetic::Design& design, OptionProblems& problems) {
   const auto size = files::pair_of(grid, 'x', 2, 1000);
   if (!size)
-    return problems.add(
-        "--grid", grid, "columns x rows, each 2 to 1000, as in 7x4", ProblemKind::bad_syntax);
+    return problems.add("--grid", grid, "columns x rows, each 2 to 1000, as in 7x4",
+                        ProblemKind::bad_syntax);
   design.columns = (*size)[0];
   design.rows = (*size)[1];
 }
@@ -74,9 +74,7 @@ std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
     const auto named = named_number(argument);
     const auto setting = named ? model::setting_from_name(named->name) : std::nullopt;
     if (!setting) {
-      problems.add("--offset",
-                   argument,
-                   "setting=number, as in motor_left_x_mm=1.5",
+      problems.add("--offset", argument, "setting=number, as in motor_left_x_mm=1.5",
                    ProblemKind::bad_syntax);
       continue;
     }
@@ -87,22 +85,17 @@ std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
 
 void throw_if_impossible(const Machine& truth, OptionProblems& problems) {
   for (const model::MachineProblem& problem : problems_of(truth)) {
-    problems.add("--offset",
-                 fmt::format("{} = {}", problem.parameter, problem.value),
-                 problem.expected,
-                 ProblemKind::impossible);
+    problems.add("--offset", fmt::format("{} = {}", problem.parameter, problem.value),
+                 problem.expected, ProblemKind::impossible);
   }
   problems.throw_if_any();
 }
 
-void require_bad_points(const SimulateOptions& options,
-                        std::size_t most,
-                        std::string_view what,
+void require_bad_points(const SimulateOptions& options, std::size_t most, std::string_view what,
                         OptionProblems& problems) {
   const int bad = options.spec.bad.count;
   if (static_cast<std::size_t>(bad) <= most) return;
-  problems.add("--bad-points",
-               fmt::format("{}", bad),
+  problems.add("--bad-points", fmt::format("{}", bad),
                fmt::format("at most one for each of the {} {}", most, what),
                ProblemKind::out_of_range);
 }

@@ -55,9 +55,7 @@ std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
 /// \throws InputError with all problems, and those of a machine with these offsets.
 void throw_if_impossible(const Machine& truth, OptionProblems& problems);
 /// At most one bad reading for each of these.
-void require_bad_points(const SimulateOptions& options,
-                        std::size_t most,
-                        std::string_view what,
+void require_bad_points(const SimulateOptions& options, std::size_t most, std::string_view what,
                         OptionProblems& problems);
 /// Checks the options of a session or of places before any file is read.
 void check_words(const SimulateOptions& options, OptionProblems& problems);

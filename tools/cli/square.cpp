@@ -30,8 +30,8 @@ std::vector<BedPoint> corners_of(SquareTask task) {
 std::string sides_text(const std::vector<BedPoint>& corners, double feed_mm_per_min) {
   std::string text;
   for (std::size_t i = 1; i < corners.size(); i += 2) {
-    text += fmt::format(
-        "G1 X{:.3f} Y{:.3f} F{:g}\n", corners[i].x_mm, corners[i].y_mm, feed_mm_per_min);
+    text += fmt::format("G1 X{:.3f} Y{:.3f} F{:g}\n", corners[i].x_mm, corners[i].y_mm,
+                        feed_mm_per_min);
   }
   return text;
 }
@@ -45,12 +45,7 @@ std::string square_program(const SquareTask& task, double depth_mm) {
   const std::string text = fmt::format(
       "(chaintrue square: {:g} mm, {:g} mm deep)\n(Zero is the middle of the bed.)\nG21 G90 G17 "
       "G94\nG0 Z{:g}\nG0 X{:.3f} Y{:.3f}\nG1 Z{:g} F{}\n",
-      task.size_mm,
-      depth_mm,
-      kClearanceMm,
-      corners.front().x_mm,
-      corners.front().y_mm,
-      -depth_mm,
+      task.size_mm, depth_mm, kClearanceMm, corners.front().x_mm, corners.front().y_mm, -depth_mm,
       kPlungeMmPerMin);
   return text + sides_text(corners, kFeedMmPerMin) +
          fmt::format("G0 Z{:g}\nG0 X0 Y0\nM2\n", kClearanceMm);
@@ -61,10 +56,7 @@ std::string square_program(const SquareTask& task, double depth_mm) {
 std::string square_program(const SquareTask& task, const grid::SetPlotter& plotter) {
   const std::vector<BedPoint> corners = corners_of(task);
   return fmt::format("; chaintrue square: {:g} mm\nG21\nG90\n{}\nG0 X{:.3f} Y{:.3f}\n{}\n",
-                     task.size_mm,
-                     plotter.pen.up,
-                     corners.front().x_mm,
-                     corners.front().y_mm,
+                     task.size_mm, plotter.pen.up, corners.front().x_mm, corners.front().y_mm,
                      plotter.pen.down) +
          sides_text(corners, plotter.feed_mm_per_min) + plotter.pen.up + "\n";
 }
@@ -110,8 +102,7 @@ tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& o
   const model::SquareFailure& failure = square.error();
   return tl::unexpected(
       SquareRefusal{failure.place.of_controller ? "the controller" : "the machine",
-                    failure.place.commanded,
-                    failure.sentence()});
+                    failure.place.commanded, failure.sentence()});
 }
 
 /// A map, or its substitute, with its controller: that of --controller-machine, or the one that the
@@ -152,23 +143,15 @@ std::string as_table(const model::CutSquare& square, const SquareTask& task) {
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
     text += fmt::format("{:<18}{:>12.3f}{:>12.3f}{:>+10.3f}\n",
-                        kSideNames[static_cast<std::size_t>(side)],
-                        task.size_mm,
-                        cut.length_mm,
+                        kSideNames[static_cast<std::size_t>(side)], task.size_mm, cut.length_mm,
                         cut.bow_mm);
   }
   const double diagonal = task.size_mm * std::sqrt(2.0);
-  text += fmt::format("{:<18}{:>12.3f}{:>12.3f}\n{:<18}{:>12.3f}{:>12.3f}\n",
-                      "diagonal rising",
-                      diagonal,
-                      square.rising_diagonal_mm,
-                      "diagonal falling",
-                      diagonal,
+  text += fmt::format("{:<18}{:>12.3f}{:>12.3f}\n{:<18}{:>12.3f}{:>12.3f}\n", "diagonal rising",
+                      diagonal, square.rising_diagonal_mm, "diagonal falling", diagonal,
                       square.falling_diagonal_mm);
   text += fmt::format("shifted by ({:+.3f}, {:+.3f}) mm and rotated by {:+.3f} mrad\n",
-                      square.offset.x_mm,
-                      square.offset.y_mm,
-                      1e3 * square.rotation_rad);
+                      square.offset.x_mm, square.offset.y_mm, 1e3 * square.rotation_rad);
   return text;
 }
 
@@ -177,18 +160,13 @@ std::string as_json(const model::CutSquare& square, const SquareTask& task) {
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
     text += fmt::format("    \"{}\": {{\"length_mm\": {}, \"bow_mm\": {}}}{}\n",
-                        kSideNames[static_cast<std::size_t>(side)],
-                        cut.length_mm,
-                        cut.bow_mm,
+                        kSideNames[static_cast<std::size_t>(side)], cut.length_mm, cut.bow_mm,
                         side == model::SquareSide::bottom ? "" : ",");
   }
   text += fmt::format(
       "  }},\n  \"diagonals\": {{\"rising_mm\": {}, \"falling_mm\": {}}},\n"
       "  \"offset\": {{\"x_mm\": {}, \"y_mm\": {}}},\n  \"rotation_rad\": {}\n}}\n",
-      square.rising_diagonal_mm,
-      square.falling_diagonal_mm,
-      square.offset.x_mm,
-      square.offset.y_mm,
+      square.rising_diagonal_mm, square.falling_diagonal_mm, square.offset.x_mm, square.offset.y_mm,
       square.rotation_rad);
   return text;
 }
@@ -200,11 +178,8 @@ void advise(const SquareOptions& options, const SquareTask& task) {
     add_option_words(again, "--machine", options.machine);
     add_option_words(again, "--controller-machine", options.controller_machine);
     again.insert(again.end(),
-                 {"--size-mm",
-                  fmt::format("{}", task.size_mm),
-                  "--at",
-                  fmt::format("{}", task.corner.x_mm),
-                  fmt::format("{}", task.corner.y_mm)});
+                 {"--size-mm", fmt::format("{}", task.size_mm), "--at",
+                  fmt::format("{}", task.corner.x_mm), fmt::format("{}", task.corner.y_mm)});
     if (task.below) again.push_back("--below");
     add_option_words(again, "--gcode", "square.nc");
     return say_next(again);
@@ -215,12 +190,7 @@ void advise(const SquareOptions& options, const SquareTask& task) {
       options.program == "-" ? "the program" : options.program,
       options.map.empty() ? "" : " With a compensated program, they are those under commanded_mm.");
   if (options.map.empty()) return say_next({"gcode", "check", options.program});
-  say_next({"gcode",
-            "compensate",
-            options.program,
-            "--map",
-            options.map,
-            "-o",
+  say_next({"gcode", "compensate", options.program, "--map", options.map, "-o",
             options.program == "-" ? "-" : compensated_name(options.program)});
 }
 
@@ -236,18 +206,14 @@ int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeM
   const auto square = machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
   if (!square) {
     const SquareRefusal& refusal = square.error();
-    say("chaintrue square: {} cannot bring the tool to ({:.1f}, {:.1f}) mm: {}",
-        refusal.who,
-        refusal.commanded.x_mm,
-        refusal.commanded.y_mm,
-        refusal.why);
+    say("chaintrue square: {} cannot bring the tool to ({:.1f}, {:.1f}) mm: {}", refusal.who,
+        refusal.commanded.x_mm, refusal.commanded.y_mm, refusal.why);
     return kNotSupportedOrOutside;
   }
   write_outputs({{"-", options.json ? as_json(*square, task) : as_table(*square, task)},
                  {options.drawing, draw_square(*square, task)},
-                 {options.program,
-                  plotter == nullptr ? square_program(task, options.depth_mm)
-                                     : square_program(task, plotter->set)}});
+                 {options.program, plotter == nullptr ? square_program(task, options.depth_mm)
+                                                      : square_program(task, plotter->set)}});
   advise(options, task);
   return kDone;
 }
@@ -265,30 +231,25 @@ int run_square(Verb verb, const SquareOptions& options) {
 
 void add_square(Verb app) {
   auto [verb, c] = app.add_verb<SquareOptions>(
-      "square",
-      "Predict the sides, diagonals and bows of a test square, and write its program",
+      "square", "Predict the sides, diagonals and bows of a test square, and write its program",
       R"(Examples:
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
   build/chaintrue square --map map.json --size-mm 500 --gcode square.nc
   build/chaintrue square --machine fixtures/machines/classic.json --controller-machine fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o square.svg)",
-      run_square,
-      [](const SquareOptions& own) {
+      run_square, [](const SquareOptions& own) {
         if (own.map.empty()) {
           if (own.machine.empty()) missing_option("--map, or --machine,");
           if (own.controller_machine.empty()) missing_option("--controller-machine");
         }
       });
   verb.has(
-      {{"--map",
-        reads(c.map),
+      {{"--map", reads(c.map),
         "The machine that will cut it: a chaintrue_map, chaintrue_anchors, "
         "or the chaintrue_plotter that fit wrote for a drawing"},
-       {"--machine",
-        reads(c.machine),
+       {"--machine", reads(c.machine),
         "Without a map: a chaintrue_machine file that describes the true machine with its "
         "effects"},
-       {"--controller-machine",
-        reads(c.controller_machine),
+       {"--controller-machine", reads(c.controller_machine),
         "The controller's settings: a chaintrue_machine file, or one of the map's kind; by "
         "default those stored in the map"},
        {"--size-mm", {c.size_mm, {"mm", 1.0, 5000.0}}, "Length of a side"},

@@ -104,9 +104,7 @@ std::string start_readme(const Machine& machine, const StartWays& ways) {
 
        chaintrue diagnose marks.csv --machine machine.json --noise-length-mm 0.1 --noise-position-mm 0.5 -o diagnosis.json --report diagnosis.html
 )",
-      machine.name.empty() ? "Your machine" : machine.name,
-      ways.marks_mm,
-      ways.holes_mm,
+      machine.name.empty() ? "Your machine" : machine.name, ways.marks_mm, ways.holes_mm,
       settings ? R"(
    or type better numbers in once:
 
@@ -150,8 +148,7 @@ Plans plans_for(const Machine& machine) {
 
 std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
   const Sheet sheet{
-      plans.marks.marks,
-      SheetOf::places,
+      plans.marks.marks, SheetOf::places,
       grid::with_second_visits(plans.marks.marks.size(),
                                std::min(grid::kUsualSecondVisits, plans.marks.marks.size() / 3))};
   const StartWays ways{expected_errors(plans.marks.map, machine.bed).rms_mm,
@@ -169,8 +166,7 @@ std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
 
 int start_template(Verb verb, const std::string& folder) {
   const std::string path = (fs::path(folder) / "machine.json").string();
-  write_folder(verb,
-               folder,
+  write_folder(verb, folder,
                {{"machine.json", files::write_machine({}, template_comments()), Origin::machine},
                 {"README.txt", template_readme(path), Origin::list}});
   say("{} describes a classic Maslow, with every key explained. Enter your machine's numbers.",
@@ -236,15 +232,13 @@ int run_start(Verb verb, const StartCommand& command) {
 
 void add_start(Verb app) {
   auto [verb, c] = app.add_verb<StartCommand>(
-      "start",
-      "Create a folder for your machine: its file, the next steps, and sheets to print",
+      "start", "Create a folder for your machine: its file, the next steps, and sheets to print",
       R"(Example:
   build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine
   build/chaintrue start fixtures/plotter/mural.txt my-mural
   build/chaintrue start)",
       run_start);
-  verb.has({{"file",
-             reads(c.file),
+  verb.has({{"file", reads(c.file),
              "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; for a "
              "V-plotter Marlin's, Polargraph's or a mural's settings, or a chaintrue_plotter; "
              "without one, a machine file to fill in is written"},

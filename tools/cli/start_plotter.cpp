@@ -31,19 +31,16 @@ FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
 void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
   const auto refuse_cross = [&](std::size_t place, std::string_view why) {
     const grid::DrawnCross& cross = drawing.crosses[place];
-    refuse(
-        file,
-        "/set/machine/area",
-        fmt::format(
-            "a cross at ({:.1f}, {:.1f}) mm, {}", cross.commanded.x_mm, cross.commanded.y_mm, why),
-        "an area that the pen reaches");
+    refuse(file, "/set/machine/area",
+           fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}", cross.commanded.x_mm,
+                       cross.commanded.y_mm, why),
+           "an area that the pen reaches");
   };
   const auto drawn = grid::drawn_measures_of(drawing);
   if (!drawn) refuse_cross(drawn.error().place, drawn.error().sentence());
   if (const auto cross = grid::cross_beyond_belt(drawing))
-    refuse_cross(
-        *cross,
-        fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)", *drawing.longest_belt_mm));
+    refuse_cross(*cross, fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)",
+                                     *drawing.longest_belt_mm));
 }
 
 }  // namespace
@@ -88,8 +85,7 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   const auto in_folder = [&](const char* name) { return (fs::path(folder) / name).string(); };
   say("{0} holds the test page: draw {1}, print sheet.txt, measure with a ruler and a "
       "string, and write what you read into drawing.json in place of each null.",
-      folder,
-      page.name);
+      folder, page.name);
   say_next({"fit", in_folder("drawing.json"), "-o", in_folder("found.json")});
   return kDone;
 }

@@ -42,10 +42,7 @@ class Svg {
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
         "width=\"{0:.0f}\" height=\"{1:.0f}\" font-family=\"sans-serif\" "
         "{2}>\n<title>{3}</title>\n",
-        wide,
-        high,
-        look,
-        report::escaped(title));
+        wide, high, look, report::escaped(title));
   }
   template <class... Arguments>
   void add(::fmt::format_string<Arguments...> element, Arguments&&... arguments) {
@@ -54,12 +51,8 @@ class Svg {
   /// White behind all that follows.
   void fill() { text_ += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"; }
   void rectangle(double x, double y, double wide, double high, std::string_view look) {
-    add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n",
-        x,
-        y,
-        wide,
-        high,
-        look);
+    add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n", x, y, wide,
+        high, look);
   }
   void circle(double x, double y, double radius, std::string_view look) {
     add("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.1f}\" {}/>\n", x, y, radius, look);
@@ -67,16 +60,9 @@ class Svg {
   void path(std::string_view d, std::string_view look) { add("<path d=\"{}\" {}/>\n", d, look); }
   /// \param anchor start, middle or end
   /// \param look empty, or with a blank in front
-  void text(double x,
-            double y,
-            std::string_view words,
-            std::string_view anchor = "start",
+  void text(double x, double y, std::string_view words, std::string_view anchor = "start",
             std::string_view look = "") {
-    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n",
-        x,
-        y,
-        anchor,
-        look,
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, look,
         report::escaped(words));
   }
   std::string finished() const { return text_ + "</svg>\n"; }

@@ -101,18 +101,14 @@ double points_of(const sweep::SweepSpec& spec, std::size_t grid) {
   return spec.grids[grid].columns * spec.grids[grid].rows;
 }
 
-Chart panel(const sweep::SweepSpec& spec,
-            const std::vector<files::LevelError>& errors,
+Chart panel(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors,
             std::size_t factor) {
   DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}};
   for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
     const std::string level =
         factor + 1 == sweep::kFactors ? "all" : sweep::level_name(spec, factor, error.level);
-    lines.rows.push_back({level,
-                          points_of(spec, error.grid),
-                          error.tool_rms_mm,
-                          error.tool_max_mm,
+    lines.rows.push_back({level, points_of(spec, error.grid), error.tool_rms_mm, error.tool_max_mm,
                           grid::as_double(error.cells)});
   }
   return {.specification = "sweep_lines",
@@ -135,20 +131,17 @@ Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& 
   for (const files::LevelError& error : errors) {
     // A factor with one level duplicates the grids.
     if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
-    table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
-                           sweep::level_name(spec, error.factor, error.level),
-                           points_of(spec, error.grid),
-                           error.tool_rms_mm,
-                           error.tool_max_mm,
-                           grid::as_double(error.cells)}});
+    table.rows.push_back(
+        {{std::string(sweep::kFactorNames[error.factor]),
+          sweep::level_name(spec, error.factor, error.level), points_of(spec, error.grid),
+          error.tool_rms_mm, error.tool_max_mm, grid::as_double(error.cells)}});
   }
   return table;
 }
 
 /// Pooled over the grids, one for each level of a factor; 0 if nothing was done.
 std::vector<double> errors_of_levels(const std::vector<files::LevelError>& errors,
-                                     std::size_t factor,
-                                     std::size_t levels) {
+                                     std::size_t factor, std::size_t levels) {
   std::vector<double> squares(levels, 0.0);
   std::vector<double> cells(levels, 0.0);
   for (const files::LevelError& error : errors) {
@@ -177,9 +170,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     });
     sentences.push_back(fmt::format(
         "From {:.0f} to {:.0f} points the error changes from {:.2f} to {:.2f} mm rms at the tool.",
-        points_of(spec, fewest->grid),
-        points_of(spec, most->grid),
-        fewest->tool_rms_mm,
+        points_of(spec, fewest->grid), points_of(spec, most->grid), fewest->tool_rms_mm,
         most->tool_rms_mm));
   }
   for (std::size_t factor = 0; factor + 1 < sweep::kFactors; ++factor) {
@@ -191,17 +182,13 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     };
     // Results that round to the same hundredths are equal in practice.
     if (fmt::format("{:.2f}", *least) == fmt::format("{:.2f}", *most)) {
-      sentences.push_back(fmt::format(
-          "{}: no difference, {:.2f} mm rms at the tool with each.", kTitles[factor], *least));
+      sentences.push_back(fmt::format("{}: no difference, {:.2f} mm rms at the tool with each.",
+                                      kTitles[factor], *least));
       continue;
     }
     sentences.push_back(fmt::format(
         "{}: {} has the smallest error, {:.2f} mm rms at the tool; {} the largest, {:.2f} mm.",
-        kTitles[factor],
-        level(least),
-        *least,
-        level(most),
-        *most));
+        kTitles[factor], level(least), *least, level(most), *most));
   }
   return sentences;
 }
@@ -217,10 +204,8 @@ Document sweep_page(const sweep::SweepSpec& spec, const std::vector<files::Level
     if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));
   }
   if (panels.blocks.empty()) panels.blocks.emplace_back(panel(spec, errors, sweep::kFactors - 1));
-  page.verdict = {fmt::format("{} cells: {} combinations, {} repetitions each.",
-                              sweep::cells(spec),
-                              sweep::combinations(spec),
-                              spec.repetitions)};
+  page.verdict = {fmt::format("{} cells: {} combinations, {} repetitions each.", sweep::cells(spec),
+                              sweep::combinations(spec), spec.repetitions)};
   for (std::string& line : answers(spec, errors)) page.advice.push_back({std::move(line)});
   page.not_proved = {"Made with the simulator; a real machine has errors that it does not model."};
   page.sections.push_back(std::move(panels));
@@ -252,19 +237,15 @@ sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
 void check_options(const SweepOptions& options, OptionProblems& problems) {
   (void)parse_shard(options.shard, problems);
   if (!options.directory.empty() && options.directory != "-") return;
-  problems.add("-o",
-               options.directory.empty() ? "an empty name" : "-",
-               "the name of a folder; a sweep writes many files",
-               ProblemKind::output_place);
+  problems.add("-o", options.directory.empty() ? "an empty name" : "-",
+               "the name of a folder; a sweep writes many files", ProblemKind::output_place);
 }
 
 void refuse_old_results(const SweepOptions& options) {
   const fs::path parts = fs::path(options.directory) / "parts";
   std::error_code error;
   if (options.resume || !fs::is_directory(parts, error) || fs::is_empty(parts, error)) return;
-  refuse("command line",
-         "-o",
-         options.directory,
+  refuse("command line", "-o", options.directory,
          "a new folder, or --resume to continue with the existing cells",
          ProblemKind::output_place);
 }
@@ -275,17 +256,13 @@ std::vector<FolderFile> results() {
           {"report.html", "", Origin::page}};
 }
 
-int assemble(Verb verb,
-             const sweep::SweepSpec& spec,
-             const files::FinishedCells& cells,
+int assemble(Verb verb, const sweep::SweepSpec& spec, const files::FinishedCells& cells,
              const SweepOptions& options) {
   const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
   if (missing > 0) {
     say("chaintrue sweep: {} of {} cells are finished; results.csv is written once the parts of "
         "all shards are in {}/parts",
-        static_cast<std::ptrdiff_t>(cells.size()) - missing,
-        cells.size(),
-        options.directory);
+        static_cast<std::ptrdiff_t>(cells.size()) - missing, cells.size(), options.directory);
     Words next = {"sweep", options.specification, "-o", options.directory};
     add_option_words(next, "--effects", options.effects);
     next.emplace_back("--resume");
@@ -297,8 +274,7 @@ int assemble(Verb verb,
   files::write_whole_file(
       fs::path(options.directory) / "report.html",
       files::signed_text(report::render_html(sweep_page(spec, errors)), Origin::page));
-  say("{} cells: {}/results.csv, summary.json, report.html (open it in any browser)",
-      cells.size(),
+  say("{} cells: {}/results.csv, summary.json, report.html (open it in any browser)", cells.size(),
       options.directory);
   say_next({"start"});
   return kDone;
@@ -347,8 +323,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
 
 void add_sweep(Verb app) {
   auto [verb, c] = app.add_verb<SweepOptions>(
-      "sweep",
-      "Simulate the accuracy of maps over combinations of factors",
+      "sweep", "Simulate the accuracy of maps over combinations of factors",
       R"(Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR
 
 Example:
@@ -358,11 +333,9 @@ Example:
       {{"specification", required(reads(c.specification)), "chaintrue_sweep file"},
        {"-o,--output", required(writes_into(c.directory)), "Folder for the shards and the results"},
        {"--shard", c.shard, "Compute only this share of the cells, such as 3/16"},
-       {"--effects",
-        reads(c.effects),
+       {"--effects", reads(c.effects),
         "chaintrue_effect files: declared effects that the specification may name"},
-       {"--resume",
-        c.resume,
+       {"--resume", c.resume,
         "Keep the finished cells in the folder and continue; also merges shards"}});
   add_option_check(verb, c, check_options);
 }

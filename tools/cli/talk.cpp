@@ -111,9 +111,8 @@ std::string with_name(std::string message, std::string_view name) {
 
 void print_warnings(const std::vector<files::Warning>& warnings) {
   for (const files::Warning& warning : warnings) {
-    say("{}",
-        warning.kind ? with_name(warning.message(), grid::name_of(*warning.kind))
-                     : warning.message());
+    say("{}", warning.kind ? with_name(warning.message(), grid::name_of(*warning.kind))
+                           : warning.message());
   }
 }
 

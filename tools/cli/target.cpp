@@ -13,8 +13,7 @@ namespace {
 CompensationMap map_of(const InputFile& file, const OutsideOption& outside) {
   const CompensationMap map = load_map(file);
   if (outside.way == "fade" && map.machine() == nullptr) {
-    throw Failed(file.path,
-                 "no_machine",
+    throw Failed(file.path, "no_machine",
                  "fade needs a map with a machine; choose another --outside",
                  kNotSupportedOrOutside);
   }
@@ -38,9 +37,7 @@ struct LengthsOf {
   }
   Lengths operator()(const files::FittedAnchors& found) const {
     if (!found.holes && !found.fit.coordinates.front().stated_mm) {
-      refuse(file.name,
-             "/fit/coordinates",
-             "no stated_mm",
+      refuse(file.name, "/fit/coordinates", "no stated_mm",
              "anchors fitted to a file with the anchors in force, which define the origin of "
              "commands (import maslow4 --settings maslow.yaml)");
     }
@@ -50,9 +47,7 @@ struct LengthsOf {
     try {
       return std::make_unique<const grid::MechanismMap>(grid::plotter_map(plotter));
     } catch (const std::invalid_argument& error) {
-      refuse(file.name,
-             "/set/machine/area",
-             error.what(),
+      refuse(file.name, "/set/machine/area", error.what(),
              "an area that the pen reaches, with the old and the new settings");
     }
   }
@@ -90,9 +85,7 @@ OptionRow frame_row(std::string& frame, std::string help) {
 grid::KnownPlotter load_found_plotter(const InputFile& file) {
   grid::KnownPlotter plotter = load_plotter(file).plotter;
   if (!plotter.found) {
-    refuse(file.name,
-           "/found",
-           "",
+    refuse(file.name, "/found", "",
            "results of a test drawing; chaintrue fit drawing.json -o found.json writes a plotter "
            "with them");
   }

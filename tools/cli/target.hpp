@@ -35,8 +35,7 @@ struct Target {
 InputFile open_target_file(const std::string& path);
 /// \param frame of a map, "marks" or "bed". \throws InputError for a bad file; Failed for a map that
 /// cannot be continued as `outside` asks.
-Target open_target(const InputFile& file,
-                   const std::string& frame,
+Target open_target(const InputFile& file, const std::string& frame,
                    const OutsideOption& outside = {});
 
 /// --frame for a target.

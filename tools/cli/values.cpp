@@ -20,17 +20,13 @@ std::string expected(const files::Range& range, bool is_whole) {
   return is_whole ? "a whole number" + text.substr(kNumber.size()) : text;
 }
 
-std::optional<double> read_number(const std::string& name,
-                                  const std::string& text,
-                                  const files::Range& range,
-                                  bool is_whole) {
+std::optional<double> read_number(const std::string& name, const std::string& text,
+                                  const files::Range& range, bool is_whole) {
   const auto number = files::number_of(text);
   if (number && range.holds(*number) && (!is_whole || *number == std::floor(*number)))
     return number;
   declared().misread.add(
-      name,
-      text.empty() ? "nothing" : text,
-      files::kind_of_bad_number(text),
+      name, text.empty() ? "nothing" : text, files::kind_of_bad_number(text),
       expected(range, is_whole) +
           (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
   return std::nullopt;

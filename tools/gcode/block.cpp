@@ -88,8 +88,7 @@ void read_assignment(ValueReader& reader, Block& block) {
     assignment.index = static_cast<int>(index);
   }
   if (!reader.accept("=")) {
-    refuse(bad_parameter,
-           reader.place(),
+    refuse(bad_parameter, reader.place(),
            "'=' was expected, because a parameter outside a word's value is an assignment");
   }
   assignment.value = reader.real();
@@ -145,8 +144,7 @@ bool Block::has_axes() const {
 }
 
 bool Block::has_z_alone() const {
-  return has('z') &&
-         grid::none_of(kAxes, [this](char axis) { return axis != 'z' && has(axis); });
+  return has('z') && grid::none_of(kAxes, [this](char axis) { return axis != 'z' && has(axis); });
 }
 
 void Block::clear(std::size_t line_number) {

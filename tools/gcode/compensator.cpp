@@ -69,8 +69,7 @@ Curve Compensator::curve(const Move& move, ChainDirections directions) {
 }
 
 /// The directions of motion of the chains after t; a chain that does not move keeps its direction.
-ChainDirections Compensator::directions_at(const Move& move,
-                                           double t,
+ChainDirections Compensator::directions_at(const Move& move, double t,
                                            ChainDirections otherwise) const {
   const double step = std::min(1.0, 0.01 / std::max(length_mm(move), 0.01));
   const double from = std::clamp(t, 0.0, 1.0 - step);
@@ -81,8 +80,8 @@ ChainDirections Compensator::directions_at(const Move& move,
           sign(behind->right_mm - before->right_mm, otherwise.right)};
 }
 
-void Compensator::piece(
-    const Move& move, double feed, double from, double to, ChainDirections directions) {
+void Compensator::piece(const Move& move, double feed, double from, double to,
+                        ChainDirections directions) {
   const Curve commands = curve(move, directions);
   const auto visit = [&](const PathSample& sample) { limits_.command(move, feed, sample); };
   // Without play the last command is the start of this one.
@@ -112,8 +111,7 @@ void Compensator::piece(
 void Compensator::along(const Move& move, double feed) {
   const bool from_home = std::exchange(homed_, false) && !move.arc;
   if (from_home && move.kind != MoveKind::rapid) {
-    note({move.line,
-          "way_from_home",
+    note({move.line, "way_from_home",
           "the move from home to the first place is not changed; only its end is compensated"});
   }
   if (!limits_.here() && (move.kind == MoveKind::rapid || from_home)) {
@@ -151,12 +149,10 @@ void Compensator::along(const Move& move, double feed) {
 /// The tool's position differs from the program's start by the correction.
 void Compensator::go_to_assumed_start(const Move& move) {
   note(
-      {move.line,
-       "start_assumed",
+      {move.line, "start_assumed",
        fmt::format("the program cuts before it moves in X and Y; it is assumed to start at X{:.6g} "
                    "Y{:.6g}",
-                   move.from.x_mm,
-                   move.from.y_mm)});
+                   move.from.x_mm, move.from.y_mm)});
   Move start = move;
   start.kind = MoveKind::rapid;
   start.arc.reset();
@@ -168,8 +164,7 @@ void Compensator::go_to_assumed_start(const Move& move) {
 void Compensator::move(const Move& move) {
   ++moves_;
   if (move.kind == MoveKind::probe) {
-    refuse(not_emittable,
-           {move.line},
+    refuse(not_emittable, {move.line},
            "probing needs a code with a decimal point, which some controllers misread; probe "
            "before the job, not within it");
   }

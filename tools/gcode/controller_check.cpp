@@ -94,14 +94,9 @@ void ControllerCheck::move(const Move& move) {
 void ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
   for (const auto& [key, all] : observed_) {
     const auto& [name, form] = kRows[static_cast<std::size_t>(key.first)];
-    std::string sentence = fmt::format(fmt::runtime(form),
-                                       firmware_.name,
-                                       firmware_.unknown,
-                                       key.second,
-                                       all.worst,
-                                       1000.0 * firmware_.tick_s,
-                                       firmware_.planned_moves,
-                                       firmware_.acceleration_mm_per_s2);
+    std::string sentence = fmt::format(fmt::runtime(form), firmware_.name, firmware_.unknown,
+                                       key.second, all.worst, 1000.0 * firmware_.tick_s,
+                                       firmware_.planned_moves, firmware_.acceleration_mm_per_s2);
     if (all.count > 1) sentence += fmt::format(" ({} lines)", all.count);
     findings_.add(Note{all.line, name, std::move(sentence)});
   }

@@ -28,8 +28,7 @@ CorrectionFailure correction_failure(const grid::MapFailure& failure) {
 
 std::string_view sentence_of(CorrectionReason reason) {
   constexpr std::string_view kSentences[] = {
-      "is outside the map",
-      "cannot be reached by the machine",
+      "is outside the map", "cannot be reached by the machine",
       "cannot be found in the map, because the iteration did not converge",
       "cannot be reached by the controller's own kinematics"};
   return kSentences[static_cast<std::size_t>(reason)];

@@ -55,14 +55,12 @@ model::ChainLengths half_play_mm(const model::Machine& machine);
 class Corrector {
  public:
   /// Keeps references.
-  Corrector(const grid::LengthMap& map,
-            const model::ControllerKinematics& kinematics,
+  Corrector(const grid::LengthMap& map, const model::ControllerKinematics& kinematics,
             const Firmware& firmware)
       : map_(map), kinematics_(kinematics), firmware_(firmware) {}
 
   /// With half the play added in the chains' directions of motion.
-  Corrected<model::BedPoint> command(model::BedPoint target,
-                                     model::ChainLengths half_play_mm = {},
+  Corrected<model::BedPoint> command(model::BedPoint target, model::ChainLengths half_play_mm = {},
                                      ChainDirections directions = {}) const;
   Corrected<model::BedPoint> tool(model::BedPoint command) const;
   Corrected<model::ChainLengths> paid_out(model::BedPoint command) const;

@@ -96,8 +96,7 @@ std::vector<std::string> hashes_in_head(LineSource program) {
 
 void refuse_compensated(const Comment& comment) {
   if (!is_marked(comment.text)) return;
-  refuse(already_compensated,
-         {comment.line},
+  refuse(already_compensated, {comment.line},
          "this file has already been compensated, as this line shows; use the original");
 }
 
@@ -151,8 +150,7 @@ void Emitter::command(const Move& move, Point place, double feed_mm_per_min, boo
   const auto is_usable = [](double value) { return std::fabs(value) < kLargestMm; };
   if (!is_usable(place.x_mm) || !is_usable(place.y_mm) || !is_usable(place.z_mm) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
-    refuse(not_emittable,
-           {move.line},
+    refuse(not_emittable, {move.line},
            "a coordinate or feed rate of this move is not a usable number");
   }
   text_ = rapid ? "G0" : "G1";
@@ -188,8 +186,7 @@ void Emitter::command(const Move& move, Point place, double feed_mm_per_min, boo
 void Emitter::word(const PassedWord& word) {
   std::string_view text = word.text;
   if (word.code && word.code->letter == 'G' && word.code->tenths % 10 != 0) {
-    refuse(not_emittable,
-           {word.line},
+    refuse(not_emittable, {word.line},
            "{} cannot be written, because some controllers read only the part before the "
            "decimal point",
            name(*word.code));

@@ -14,9 +14,7 @@ std::string_view name(MoveKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string name(Code code) {
-  return fmt::format("{}{:g}", code.letter, code.tenths / 10.0);
-}
+std::string name(Code code) { return fmt::format("{}{:g}", code.letter, code.tenths / 10.0); }
 
 void Findings::add(Problem problem) {
   const std::size_t line = problem.place.line;

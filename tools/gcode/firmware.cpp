@@ -39,9 +39,7 @@ constexpr Firmware maslow(const char* name) {
           .arcs = ArcRule::maslow};
 }
 
-constexpr Firmware fluidnc(const char* name,
-                           double piece_mm,
-                           bool pieces_at_most,
+constexpr Firmware fluidnc(const char* name, double piece_mm, bool pieces_at_most,
                            bool phantom_moves) {
   return {.name = name,
           .single_precision = true,
@@ -59,10 +57,8 @@ constexpr Firmware kFluidNc = fluidnc("fluidnc_wallplotter", 10.0, false, true);
 constexpr Firmware kFourBelts = fluidnc("maslow4", 5.0, true, false);
 
 /// In the order of model::ControllerKind.
-constexpr Firmware kFirmwares[] = {{.name = "ideal", .tool_lengths = true},
-                                   maslow("maslow_classic"),
-                                   maslow("holey"),
-                                   kFluidNc};
+constexpr Firmware kFirmwares[] = {
+    {.name = "ideal", .tool_lengths = true}, maslow("maslow_classic"), maslow("holey"), kFluidNc};
 
 /// In the order of model::PlotterFirmware.
 constexpr Firmware kPlotters[] = {
@@ -125,12 +121,8 @@ std::optional<ClampBox> clamp_box(const model::Machine& machine) {
                   0.5 * settings.bed_height_mm.value_or(machine.bed.height_mm)};
 }
 
-CommandWay::CommandWay(const Firmware& firmware,
-                       const model::ControllerKinematics& kinematics,
-                       Point from,
-                       Point to,
-                       double feed_mm_per_min,
-                       double doubt_mm)
+CommandWay::CommandWay(const Firmware& firmware, const model::ControllerKinematics& kinematics,
+                       Point from, Point to, double feed_mm_per_min, double doubt_mm)
     : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
   if (!is_chain_linear(firmware)) return;
   const double length = level_mm(to - from) - doubt_mm;

@@ -129,9 +129,7 @@ bool cuts_straight(const Firmware& firmware, double radius_mm, double sweep_rad)
 /// The ends of the straight moves that an arc becomes, in order; the last is the arc's end. Stops if
 /// `visit` returns false.
 /// \param bow_mm the largest deviation of the chords if the controller follows the arc itself
-void for_each_chord(const Firmware& firmware,
-                    const Move& arc,
-                    double bow_mm,
+void for_each_chord(const Firmware& firmware, const Move& arc, double bow_mm,
                     const std::function<bool(Point)>& visit);
 
 /// The path of a straight command in the controller.
@@ -141,12 +139,8 @@ class CommandWay {
   /// \param feed_mm_per_min of the command; 0: none was stated.
   /// \param doubt_mm subtracted from the command's length (its numbers will be rounded) before the
   /// controller's pieces are counted.
-  CommandWay(const Firmware& firmware,
-             const model::ControllerKinematics& kinematics,
-             Point from,
-             Point to,
-             double feed_mm_per_min,
-             double doubt_mm = 0.0);
+  CommandWay(const Firmware& firmware, const model::ControllerKinematics& kinematics, Point from,
+             Point to, double feed_mm_per_min, double doubt_mm = 0.0);
 
   /// Pieces that are linear in chain length; 1 if the controller follows the line.
   int pieces() const { return pieces_; }

@@ -22,8 +22,8 @@ constexpr double kFewestChords = 8.0;
 
 /// The point of the arc's plane at u, v from its centre, as a share of the way to its other end.
 Point point_of(const Arc& arc, double u, double v, double share) {
-  return in_plane(
-      arc, u, v, arc.start_height_mm + share * (arc.end_height_mm - arc.start_height_mm));
+  return in_plane(arc, u, v,
+                  arc.start_height_mm + share * (arc.end_height_mm - arc.start_height_mm));
 }
 
 /// The angle of the last turn in the arc's direction, with this firmware's rule for a whole turn.
@@ -96,9 +96,7 @@ bool cuts_straight(const Firmware& firmware, double radius_mm, double sweep_rad)
   return (std::fabs(height) < 0.01F && sweep_rad < 0.5) || radius > 25400.0F;
 }
 
-void for_each_chord(const Firmware& firmware,
-                    const Move& arc,
-                    double bow_mm,
+void for_each_chord(const Firmware& firmware, const Move& arc, double bow_mm,
                     const std::function<bool(Point)>& visit) {
   const double sweep = std::fabs(turned(*arc.arc, 2.0F * kMaslowPi, 0.0F));
   if (cuts_straight(firmware, arc.arc->start_radius_mm, sweep)) {

@@ -43,21 +43,11 @@ bool Flow::next(SourceLine& line) {
 
 /// Longer words before their prefixes.
 const Flow::Word Flow::kWords[] = {
-    {"endsub", &Flow::return_from},
-    {"sub", &Flow::begin_sub},
-    {"call", &Flow::call},
-    {"return", &Flow::return_from},
-    {"endwhile", &Flow::end_loop},
-    {"while", &Flow::begin_loop},
-    {"do", &Flow::begin_loop},
-    {"elseif", &Flow::condition},
-    {"else", &Flow::condition},
-    {"endif", &Flow::condition},
-    {"if", &Flow::condition},
-    {"break", &Flow::jump_out},
-    {"continue", &Flow::jump_out},
-    {"endrepeat", &Flow::end_loop},
-    {"repeat", &Flow::begin_loop},
+    {"endsub", &Flow::return_from}, {"sub", &Flow::begin_sub},      {"call", &Flow::call},
+    {"return", &Flow::return_from}, {"endwhile", &Flow::end_loop},  {"while", &Flow::begin_loop},
+    {"do", &Flow::begin_loop},      {"elseif", &Flow::condition},   {"else", &Flow::condition},
+    {"endif", &Flow::condition},    {"if", &Flow::condition},       {"break", &Flow::jump_out},
+    {"continue", &Flow::jump_out},  {"endrepeat", &Flow::end_loop}, {"repeat", &Flow::begin_loop},
     {"", &Flow::name_program},
 };
 
@@ -75,8 +65,7 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
     if (!reader.accept(word.keyword) || (word.keyword.empty() && !reader.done())) continue;
     return {word, std::move(label), reader.at()};
   }
-  refuse(bad_flow,
-         reader.place(),
+  refuse(bad_flow, reader.place(),
          "an O-word must be followed by nothing, or by one of sub, call, return, if, while, do, "
          "repeat and their ends");
 }
@@ -123,8 +112,7 @@ std::optional<Flow::Found> Flow::find(const std::string& label,
 }
 
 Flow::Found Flow::skip_to(const std::string& label,
-                          std::initializer_list<std::string_view> keywords,
-                          Place from) {
+                          std::initializer_list<std::string_view> keywords, Place from) {
   auto found = find(label, keywords);
   if (found) return std::move(*found);
   refuse(bad_flow, from, "the file has no end of o{}", label);
@@ -133,10 +121,7 @@ Flow::Found Flow::skip_to(const std::string& label,
 void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
   const auto [known, fresh] = defined_at_.emplace(control.label, line.number);
   if (!fresh && known->second != line.number) {
-    refuse(bad_flow,
-           line,
-           "the subroutine o{} is already defined on line {}",
-           control.label,
+    refuse(bad_flow, line, "the subroutine o{} is already defined on line {}", control.label,
            known->second);
   }
   bodies_.insert_or_assign(control.label, source_.position());
@@ -157,8 +142,8 @@ LineSource::Position Flow::find_body(const std::string& label, Place place) {
     source_.seek(here);
     return body;
   }
-  refuse(
-      bad_flow, place, "the subroutine o{} is not in this file; other files are not read", label);
+  refuse(bad_flow, place, "the subroutine o{} is not in this file; other files are not read",
+         label);
 }
 
 void Flow::push_call(OpenCall call, Place place) {
@@ -185,8 +170,7 @@ void Flow::call(const CleanLine& line, const ControlLine& control) {
   while (!reader.done()) {
     arguments.push_back(reader.bracketed());
   }
-  if (arguments.size() > 30)
-    refuse(bad_flow, line, "a subroutine takes at most 30 arguments");
+  if (arguments.size() > 30) refuse(bad_flow, line, "a subroutine takes at most 30 arguments");
   OpenCall open;
   open.label = control.label;
   open.return_to = source_.position();
@@ -247,9 +231,7 @@ void Flow::finish(Place place) const {
     refuse(bad_flow, place, "the file ends inside the subroutine o{}", calls_.back().label);
   }
   if (!blocks_.empty()) {
-    refuse(bad_flow,
-           {blocks_.back().line, 0},
-           "the loop or condition o{} has no end",
+    refuse(bad_flow, {blocks_.back().line, 0}, "the loop or condition o{} has no end",
            blocks_.back().label);
   }
 }

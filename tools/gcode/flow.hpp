@@ -82,8 +82,7 @@ class Flow {
   std::optional<Found> find(const std::string& label,
                             std::initializer_list<std::string_view> keywords);
   /// The same, but required.
-  Found skip_to(const std::string& label,
-                std::initializer_list<std::string_view> keywords,
+  Found skip_to(const std::string& label, std::initializer_list<std::string_view> keywords,
                 Place from);
   void open_block(OpenBlock block, Place place);
   void push_call(OpenCall call, Place place);

@@ -37,8 +37,8 @@ void Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
     block.start = source_.position();
     // An expression may differ from a whole number by rounding.
     if (std::fabs(count - std::round(count)) > 0.0001) {
-      refuse(
-          bad_flow, line.place(control.rest), "a loop count must be a whole number, not {}", count);
+      refuse(bad_flow, line.place(control.rest), "a loop count must be a whole number, not {}",
+             count);
     }
     block.remaining = static_cast<long>(std::clamp(std::round(count), -1.0, 1e15));
     if (block.remaining <= 0) {
@@ -78,10 +78,7 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
   OpenBlock* open = innermost(control.label);
   const bool begins = control.keyword == "if";
   if (!begins && (open == nullptr || open->kind != "if")) {
-    refuse(bad_flow,
-           line,
-           "o{} continues a condition that does not begin here",
-           control.label);
+    refuse(bad_flow, line, "o{} continues a condition that does not begin here", control.label);
   }
   if (!begins) {  // the executed branch is over
     close(open);
@@ -91,8 +88,7 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
   }
   double holds = value(line, control.rest);
   while (holds == 0.0) {
-    const auto branch =
-        skip_to(control.label, {"elseif", "else", "endif"}, line);
+    const auto branch = skip_to(control.label, {"elseif", "else", "endif"}, line);
     if (branch.control.keyword == "endif") return;
     if (branch.control.keyword == "else") break;
     holds = value(found_line_, branch.control.rest);

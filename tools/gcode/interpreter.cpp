@@ -20,21 +20,18 @@ Interpreter::Interpreter(const Dialect& dialect, const Block& block, Sink& sink)
 
 void Interpreter::step(Place place) {
   if (++steps_ <= dialect_.step_budget) return;
-  refuse(step_budget,
-         place,
+  refuse(step_budget, place,
          "the program has taken {} steps in loops, subroutines and cycles without "
          "reaching its end",
          dialect_.step_budget);
 }
 
-void Interpreter::note(std::string_view name,
-                       std::string sentence,
+void Interpreter::note(std::string_view name, std::string sentence,
                        std::optional<ProblemName> problem) const {
   sink_.note({block_.line, name, std::move(sentence), problem});
 }
 
-void Interpreter::note_once(std::string_view name,
-                            std::string sentence,
+void Interpreter::note_once(std::string_view name, std::string sentence,
                             std::optional<ProblemName> problem) {
   if (noted_.insert(name).second) note(name, std::move(sentence), problem);
 }
@@ -52,8 +49,7 @@ void Interpreter::note_whole(std::size_t last_line) {
   }
   if (long_arcs_ > 1 && long_arcs_ == arcs_) {
     sink_.note(
-        {first_long_arc_,
-         "arcs_long",
+        {first_long_arc_, "arcs_long",
          fmt::format("each of the {} arcs, beginning with this one, is longer than half a circle: "
                      "are G2 and G3 exchanged?",
                      arcs_)});
@@ -64,14 +60,12 @@ void Interpreter::note_whole(std::size_t last_line) {
   if (modes_.system != 1) left.push_back(system_name());
   if (frame_.offset != Axes{}) left.emplace_back("an offset (G92 or G52)");
   if (left.empty()) return;
-  sink_.note({last_line,
-              "state_left",
+  sink_.note({last_line, "state_left",
               fmt::format("the program ends with {} in force, which affects the next program",
                           fmt::join(left, ", "))});
 }
 
-void Interpreter::pass_line(const std::vector<CommentText>& texts,
-                            Code code,
+void Interpreter::pass_line(const std::vector<CommentText>& texts, Code code,
                             std::string_view words) {
   note_deletable();
   comments(texts);
@@ -131,8 +125,7 @@ int Interpreter::motion_to_be() const {
   if (once_takes_axes || length_takes_axes) return -1;
   if (!block_.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
   if (motion != nullptr || modes_.motion == g::no_motion) {
-    refuse(no_motion_mode,
-           block_,
+    refuse(no_motion_mode, block_,
            "there are axis words, but no motion (G0, G1, G2, G3 ...) is in force that could use "
            "them");
   }

@@ -113,11 +113,9 @@ class Interpreter {
   void assign();
   /// Remarks of one name are made once a program.
   /// At the block.
-  void note(std::string_view name,
-            std::string sentence,
+  void note(std::string_view name, std::string sentence,
             std::optional<ProblemName> problem = {}) const;
-  void note_once(std::string_view name,
-                 std::string sentence,
+  void note_once(std::string_view name, std::string sentence,
                  std::optional<ProblemName> problem = {});
   void note_deletable();
   void check_assignments() const;

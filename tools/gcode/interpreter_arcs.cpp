@@ -63,18 +63,14 @@ PlanePoint by_radius(const ArcWords& arc) {
   const PlanePoint chord = arc.end - arc.start;
   const double half_chord = 0.5 * std::abs(chord);
   if (half_chord == 0.0) {
-    refuse(bad_arc,
-           place,
+    refuse(bad_arc, place,
            "the arc ends where it starts, which a radius cannot describe; a full circle "
            "needs its centre");
   }
   double magnitude = std::fabs(radius);
   if (half_chord - magnitude > arc.radius_tolerance_mm()) {
-    refuse(bad_arc,
-           place,
-           "the radius {} is too small: the arc's ends are {} apart",
-           arc.in_units(magnitude),
-           arc.in_units(2.0 * half_chord));
+    refuse(bad_arc, place, "the radius {} is too small: the arc's ends are {} apart",
+           arc.in_units(magnitude), arc.in_units(2.0 * half_chord));
   }
   magnitude = half_chord / magnitude > 1.0 - kTiny ? half_chord : magnitude;
   const double to_centre =
@@ -91,10 +87,7 @@ PlanePoint by_centre(const ArcWords& arc) {
   const char first = kCentreLetters[arc.plane.first];
   const char second = kCentreLetters[arc.plane.second];
   if (arc.absolute_centre && !(block.has(first) && block.has(second))) {
-    refuse(bad_arc,
-           block,
-           "absolute centres (G90.1) need both {} and {}",
-           upper(first),
+    refuse(bad_arc, block, "absolute centres (G90.1) need both {} and {}", upper(first),
            upper(second));
   }
   const PlanePoint words(block.find(first).value_or(0.0), block.find(second).value_or(0.0));
@@ -111,12 +104,10 @@ PlanePoint by_centre(const ArcWords& arc) {
   const double relative = difference / std::max(from_start, from_end);
   if (difference > 100.0 * spiral_tolerance ||
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
-    refuse(bad_arc,
-           block,
+    refuse(bad_arc, block,
            "the arc's end is not on its circle: the radius is {} at the start and {} "
            "at the end",
-           arc.in_units(from_start),
-           arc.in_units(from_end));
+           arc.in_units(from_start), arc.in_units(from_end));
   }
   return centre;
 }
@@ -127,8 +118,8 @@ PlanePoint centre_of(const ArcWords& arc) {
   // A zero across the plane has no effect; FreeCAD writes it with every arc.
   const char across = kCentreLetters[arc.plane.normal];
   if (block.find(across).value_or(0.0) != 0.0) {
-    refuse(
-        bad_arc, block.place(across), "{} has no meaning for an arc of this plane", upper(across));
+    refuse(bad_arc, block.place(across), "{} has no meaning for an arc of this plane",
+           upper(across));
   }
   const bool has_centre =
       block.has(kCentreLetters[arc.plane.first]) || block.has(kCentreLetters[arc.plane.second]);
@@ -156,9 +147,7 @@ double swept(double from, double to, int turns) {
 double turns_of(const Block& block) {
   const double turns = block.find('p').value_or(1.0);
   if (turns < 1.0 || turns > kMostTurns || std::round(turns) != turns) {
-    refuse(bad_arc,
-           block.place('p'),
-           "P, the number of turns, must be a whole number from 1 to {}",
+    refuse(bad_arc, block.place('p'), "P, the number of turns, must be a whole number from 1 to {}",
            kMostTurns);
   }
   return turns;
@@ -170,8 +159,7 @@ void Interpreter::arc(bool clockwise) {
   const double turns = turns_of(block_);
   if (block_.is(g::machine_frame)) refuse(bad_word_value, block_, "G53 needs G0 or G1");
   if (z_unknown_ && modes_.plane != g::plane_xy) {
-    refuse(unsupported_code,
-           block_,
+    refuse(unsupported_code, block_,
            "after probing, G53, G28 or G30 the start of an upright arc (G18, G19) is known only to "
            "the machine");
   }

@@ -70,8 +70,7 @@ void Interpreter::cycle(int motion) {
     refuse(bad_cycle, block_, "a canned cycle accepts only X, Y and Z");
   }
   if (z_unknown_) {
-    refuse(unsupported_code,
-           block_,
+    refuse(unsupported_code, block_,
            "after probing, G53, G28 or G30 the start of a cycle is known only to the machine");
   }
   const bool again = modes_.motion == motion;

@@ -112,8 +112,7 @@ void Interpreter::machine_height(int motion) {
   std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length('z'));
   if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
-      refuse(unsupported_code,
-             block_,
+      refuse(unsupported_code, block_,
              "a height in machine coordinates (G53) needs a feed rate in mm/min or inch/min");
     }
     text += with_value(" F", modes_.feed);
@@ -125,14 +124,12 @@ void Interpreter::machine_height(int motion) {
 void Interpreter::check_height(const Axes& machine) const {
   if (!block_.has('z') || !z_unknown_) return;
   if (modes_.incremental) {
-    refuse(unsupported_code,
-           block_.place('z'),
+    refuse(unsupported_code, block_.place('z'),
            "after probing, G53, G28 or G30 the height is known only to the machine, so Z cannot be "
            "relative (G91) here");
   }
   if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
-    refuse(unsupported_code,
-           block_.place('z'),
+    refuse(unsupported_code, block_.place('z'),
            "after a height in machine coordinates (G53, G28, G30) Z must move first, without X and "
            "Y, because the height where it starts is known only to the machine");
   }
@@ -175,8 +172,7 @@ void Interpreter::probe() {
   }
   const auto machine = target();
   if (machine[0] != machine_[0] || machine[1] != machine_[1]) {
-    refuse(unsupported_code,
-           block_,
+    refuse(unsupported_code, block_,
            "probing sideways (X, Y) ends at a position known only to the machine");
   }
   if (std::fabs(machine[2] - machine_[2]) < 0.254) {

@@ -104,8 +104,7 @@ void Interpreter::once() {
 
 void Interpreter::needs_known_z() const {
   if (!z_unknown_ || !block_.has('z')) return;
-  refuse(unsupported_code,
-         block_.place('z'),
+  refuse(unsupported_code, block_.place('z'),
          "after probing, G53, G28 or G30 the height is known only to the machine, so Z cannot be "
          "set from it here");
 }
@@ -113,8 +112,7 @@ void Interpreter::needs_known_z() const {
 void Interpreter::set_system() {
   const double mode = block_.find('l').value_or(-1.0);
   if (mode != 2.0 && mode != 20.0) {
-    refuse(unsupported_code,
-           block_,
+    refuse(unsupported_code, block_,
            "only G10 L2 and L20 (work offsets) are supported, not tool tables");
   }
   const double number = block_.find('p').value_or(-1.0);

@@ -61,10 +61,8 @@ std::vector<std::string> Interpreter::describe() const {
   };
   std::vector<std::string> lines;
   lines.push_back(
-      fmt::format("motion mode {}, plane {}, {}, {}, arc centres {}",
-                  name({'G', modes_.motion}),
-                  name({'G', modes_.plane}),
-                  modes_.inches ? "inches (G20)" : "millimetres (G21)",
+      fmt::format("motion mode {}, plane {}, {}, {}, arc centres {}", name({'G', modes_.motion}),
+                  name({'G', modes_.plane}), modes_.inches ? "inches (G20)" : "millimetres (G21)",
                   modes_.incremental ? "incremental (G91)" : "absolute (G90)",
                   modes_.absolute_centres ? "absolute (G90.1)" : "incremental (G91.1)"));
   if (modes_.feed_mode == FeedMode::inverse_time) {
@@ -73,12 +71,10 @@ std::vector<std::string> Interpreter::describe() const {
     lines.push_back(fmt::format("feed: {:.6g} mm/min (G94)", modes_.feed));
   }
   lines.push_back(fmt::format("work offset {}: origin {} mm, rotated by {:.6g} degrees",
-                              system_name(),
-                              place(frame_.origin),
-                              frame_.rotation_deg));
+                              system_name(), place(frame_.origin), frame_.rotation_deg));
   lines.push_back(fmt::format("G92/G52 offset: {} mm", place(frame_.offset)));
-  lines.push_back(fmt::format(
-      "position: program {} mm, machine {} mm", place(to_program(machine_)), place(machine_)));
+  lines.push_back(fmt::format("position: program {} mm, machine {} mm", place(to_program(machine_)),
+                              place(machine_)));
   return lines;
 }
 

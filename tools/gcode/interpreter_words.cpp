@@ -35,8 +35,7 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
   const auto look = [&](const KnownCode* code) {
     if (code == nullptr || !uses(*code, letter)) return;
     if (user != nullptr) {
-      refuse(bad_word_value,
-             block.place(letter),
+      refuse(bad_word_value, block.place(letter),
              "the {} word could belong to two codes on this line; write each on a "
              "separate line",
              upper(letter));
@@ -49,25 +48,18 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
   }
   if (user != nullptr) return *user;
   if (letter == 'e') {
-    refuse(unsupported_axis,
-           block.place('e'),
+    refuse(unsupported_axis, block.place('e'),
            "an E word (the extruder of a 3D printer) has no meaning on a router");
   }
-  refuse(unused_word,
-         block.place(letter),
-         "nothing on the line uses the {} word; it belongs to {}",
-         upper(letter),
-         users_of(letter));
+  refuse(unused_word, block.place(letter), "nothing on the line uses the {} word; it belongs to {}",
+         upper(letter), users_of(letter));
 }
 
 void check_whole(const Block& block, char letter, std::string_view whose) {
   const double value = block.value(letter);
   if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) return;
-  refuse(bad_word_value,
-         block.place(letter),
-         "{}{} must be a whole number of at least 0; here it is {}",
-         upper(letter),
-         whose,
+  refuse(bad_word_value, block.place(letter),
+         "{}{} must be a whole number of at least 0; here it is {}", upper(letter), whose,
          with_value("", value));
 }
 
@@ -164,8 +156,7 @@ void Interpreter::tool_length() {
   if (block_.is(g::tool_length_stated)) {
     if (block_.has('x') || block_.has('y') || block_.has('a') || block_.has('b') ||
         block_.has('c')) {
-      refuse(unsupported_code,
-             block_,
+      refuse(unsupported_code, block_,
              "a tool offset (G43.1) in an axis other than Z moves the "
              "path");
     }

@@ -41,8 +41,8 @@ Limits::Limits(const Corrector& corrector, const CompensateOptions& options, Byt
 void Limits::header(double home_x_mm, double home_y_mm) {
   std::vector<std::string> lines;
   if (options_.made_by) lines = comments_of(*options_.made_by);
-  lines.push_back(fmt::format(
-      "(controller {}, tolerance {} mm)", corrector_.firmware().name, options_.tolerance_mm));
+  lines.push_back(fmt::format("(controller {}, tolerance {} mm)", corrector_.firmware().name,
+                              options_.tolerance_mm));
   lines.push_back(fmt::format("(home was X{} Y{})", home_x_mm, home_y_mm));
   grid::append_all(lines, settings_lines(options_.settings));
   emitter_.header(lines);
@@ -74,21 +74,16 @@ void Limits::word(const PassedWord& word) {
   const Firmware& firmware = corrector_.firmware();
   const bool is_length = word.code == g::tool_length || word.code == g::tool_length_stated;
   if (is_length && !firmware.tool_lengths) {
-    refuse(not_emittable,
-           {word.line},
+    refuse(not_emittable, {word.line},
            "{}: {} stores no tool lengths, so every height after it could be wrong; "
            "remove G43 and set Z to zero with each tool",
-           word.text,
-           firmware.name);
+           word.text, firmware.name);
   }
   if (word.moves_itself && !knows_code(firmware, *word.code)) {
-    refuse(not_emittable,
-           {word.line},
+    refuse(not_emittable, {word.line},
            "{}: {} does not support {} and would read the height as one above the "
            "work; write a safe height above the work (G0 Z...)",
-           word.text,
-           firmware.name,
-           name(*word.code));
+           word.text, firmware.name, name(*word.code));
   }
   if (word.leaves_xy) here_.reset();
   note_unknown(word);
@@ -121,9 +116,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
   if (size > options_.largest_correction_mm) {
     object_to(correction_too_large,
               fmt::format("{} would be corrected by {:.2f} mm, more than the {} mm allowed",
-                          in_xy(sample.target),
-                          size,
-                          options_.largest_correction_mm));
+                          in_xy(sample.target), size, options_.largest_correction_mm));
   }
   if (const auto& box = options_.clamp_box) {
     const double beyond = std::max(std::fabs(sample.command.x_mm) - box->half_width_mm,
@@ -134,10 +127,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
           fmt::format(
               "{} needs the command {}, {:.2f} mm beyond the bed, where "
               "the controller silently cuts it off; enlarge the bed in its settings by {:.0f} mm",
-              in_xy(sample.target),
-              in_xy(sample.command),
-              beyond,
-              std::ceil(2.0 * beyond)));
+              in_xy(sample.target), in_xy(sample.command), beyond, std::ceil(2.0 * beyond)));
     }
   }
   if (here_) {
@@ -149,15 +139,12 @@ void Limits::examine(const Move& move, const PathSample& sample) {
         object_to(correction_too_steep,
                   fmt::format("before {} the correction changes by {:.3f} mm per mm, more than the "
                               "{} allowed",
-                              in_xy(sample.target),
-                              slope,
-                              options_.steepest_correction));
+                              in_xy(sample.target), slope, options_.steepest_correction));
       }
     }
   }
   if (corrector_.map().status(sample.target) >= grid::MapStatus::extrapolated) {
-    findings_.add(Note{move.line,
-                       "extrapolated",
+    findings_.add(Note{move.line, "extrapolated",
                        fmt::format("{} is outside the measured points; the correction there is "
                                    "extrapolated",
                                    in_xy(sample.target))});
@@ -168,8 +155,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
 void Limits::note_unknown(const PassedWord& word) {
   const Firmware& firmware = corrector_.firmware();
   if (!word.code || knows_code(firmware, *word.code) || !unknown_.insert(*word.code).second) return;
-  findings_.add(Note{word.line,
-                     "code_not_known",
+  findings_.add(Note{word.line, "code_not_known",
                      fmt::format("{} {} {}", firmware.name, firmware.unknown, name(*word.code))});
 }
 

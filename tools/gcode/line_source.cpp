@@ -157,13 +157,11 @@ bool LineSource::next(SourceLine& line) {
   line.text = std::string_view(buffer_).substr(begin_, static_cast<std::size_t>(last - first));
   line.number = ++lines_before_;
   if (const std::size_t zero = line.text.find('\0'); zero != std::string_view::npos) {
-    refuse(not_text,
-           {line.number, zero + 1},
+    refuse(not_text, {line.number, zero + 1},
            "there is a zero byte, so the file is not plain text (UTF-16, or not G-code)");
   }
   if (line.text.size() > kMaxLineLength) {
-    refuse(line_too_long,
-           {line.number},
+    refuse(line_too_long, {line.number},
            "the line is longer than {} characters: the line ends are lost, or this is "
            "not a program",
            kMaxLineLength);

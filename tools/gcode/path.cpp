@@ -30,8 +30,7 @@ double nearest_on_line(Point a, Point b, Point p) {
 Point in_plane(const Arc& arc, double u, double v, double height_mm) {
   const Point& a = arc.first;
   const Point& b = arc.second;
-  const Point normal{a.y_mm * b.z_mm - a.z_mm * b.y_mm,
-                     a.z_mm * b.x_mm - a.x_mm * b.z_mm,
+  const Point normal{a.y_mm * b.z_mm - a.z_mm * b.y_mm, a.z_mm * b.x_mm - a.x_mm * b.z_mm,
                      a.x_mm * b.y_mm - a.y_mm * b.x_mm};
   return arc.centre + u * a + v * b + height_mm * normal;
 }

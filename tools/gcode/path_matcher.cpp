@@ -139,13 +139,8 @@ void PathMatcher::note_corner(Open& open, Point tool, std::size_t line) {
 }
 
 /// The reachable parts of a cell's right and top edges, given their free parts.
-void PathMatcher::cell(Open& open,
-                       Span bottom,
-                       const PathPiece& piece,
-                       bool pinned,
-                       bool labels,
-                       Span& right,
-                       Span& top) const {
+void PathMatcher::cell(Open& open, Span bottom, const PathPiece& piece, bool pinned, bool labels,
+                       Span& right, Span& top) const {
   const Span left = open.left;
   const bool barred = labels && (open.pinned || pinned) && !agree(open.piece, piece);
   if (!barred) {
@@ -214,8 +209,8 @@ void PathMatcher::commit(const PathPiece& piece) {
     if (open.left.empty()) continue;
     lowest = std::min(lowest, i);
     reached_ = i;
-    const double t = std::clamp(
-        nearest_on_line(open.from, open.piece.to, piece.to), open.left.low, open.left.high);
+    const double t = std::clamp(nearest_on_line(open.from, open.piece.to, piece.to), open.left.low,
+                                open.left.high);
     const Point place = between(open.from, open.piece.to, t);
     const double apart = distance_mm(place, piece.to);
     if (apart < nearest.distance_mm) {

@@ -117,12 +117,7 @@ class PathMatcher {
   bool pin(Run& run, Point from, const PathPiece& piece) const;
   bool agree(const PathPiece& a, const PathPiece& b) const;
   bool column(const PathPiece& piece, bool pinned, double distance_mm, bool labels);
-  void cell(Open& open,
-            Span bottom,
-            const PathPiece& piece,
-            bool pinned,
-            bool labels,
-            Span& right,
+  void cell(Open& open, Span bottom, const PathPiece& piece, bool pinned, bool labels, Span& right,
             Span& top) const;
   void commit(const PathPiece& piece);
   void close_up();

@@ -58,10 +58,9 @@ struct Refusal final : std::exception {
 
 /// With the sentence's values.
 template <class... Values>
-requires(sizeof...(Values) > 0) [[noreturn]] void refuse(ProblemName problem,
-                                                         Place place,
-                                                         fmt::format_string<Values...> sentence,
-                                                         Values&&... values) {
+requires(sizeof...(Values) > 0)
+    [[noreturn]] void refuse(ProblemName problem, Place place,
+                             fmt::format_string<Values...> sentence, Values&&... values) {
   refuse(problem, place, fmt::format(sentence, std::forward<Values>(values)...));
 }
 

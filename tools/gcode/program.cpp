@@ -54,8 +54,7 @@ void Program::end_of_file() {
     sink_.note(
         {summary_.lines, "no_closing_percent", "the file begins with % but does not end with it"});
   } else {
-    sink_.note({summary_.lines,
-                "no_program_end",
+    sink_.note({summary_.lines, "no_program_end",
                 "the program has neither M2, M30 nor %; LinuxCNC would refuse it"});
   }
   return end(summary_.lines, "");
@@ -88,8 +87,8 @@ void Program::line(const SourceLine& raw) {
       return interpreter_.pass_line(line_.comments, word->code, word->words);
   }
   try {
-    read_words(
-        ValueReader(line_, interpreter_.parameters(), at), block_, dialect.tools_have_no_diameter);
+    read_words(ValueReader(line_, interpreter_.parameters(), at), block_,
+               dialect.tools_have_no_diameter);
   } catch (const Refusal&) {
     if (holds_moves(line_.text)) lines_lost(raw.number);
     throw;

@@ -35,8 +35,7 @@ struct ProgramSummary {
   std::uint64_t blocks = 0;  ///< executed
 };
 
-[[nodiscard]] Result<ProgramSummary> run_program(LineSource& source,
-                                                 const Dialect& dialect,
+[[nodiscard]] Result<ProgramSummary> run_program(LineSource& source, const Dialect& dialect,
                                                  Sink& sink);
 
 /// The same, line by line.

@@ -23,10 +23,8 @@ constexpr double kRowsPerTurn = 8.0;
 
 class Sampler final : public Sink {
  public:
-  Sampler(const grid::LengthMap& map,
-          double every_mm,
-          const std::function<void(const PathLengths&)>& write,
-          Findings& findings)
+  Sampler(const grid::LengthMap& map, double every_mm,
+          const std::function<void(const PathLengths&)>& write, Findings& findings)
       : map_(map), every_mm_(every_mm), write_(write), findings_(findings) {}
 
   void move(const Move& move) override {
@@ -115,17 +113,14 @@ class Surveyor final : public Sink {
   void take(Point place, std::size_t line) {
     include(place);
     const interp::Rectangle& area = sheet_.area;
-    const double beyond = std::max({area.x_min - place.x_mm,
-                                    place.x_mm - area.x_max,
-                                    area.y_min - place.y_mm,
-                                    place.y_mm - area.y_max});
+    const double beyond = std::max({area.x_min - place.x_mm, place.x_mm - area.x_max,
+                                    area.y_min - place.y_mm, place.y_mm - area.y_max});
     if (beyond <= 1e-9) return;
     std::string sentence = fmt::format("{} is {:.2f} mm outside the sheet", in_xy(place), beyond);
     if (sheet_.is_assumed) {
       sentence += fmt::format(
           ", assumed to be {:g} x {:g} mm with X0 Y0 in its middle; --machine sets another",
-          area.x_max - area.x_min,
-          area.y_max - area.y_min);
+          area.x_max - area.x_min, area.y_max - area.y_min);
     }
     findings_.add(Problem{outside_sheet, {line}, std::move(sentence)});
   }
@@ -136,10 +131,8 @@ class Surveyor final : public Sink {
 
 }  // namespace
 
-Result<ProgramSummary> path_lengths(LineSource& source,
-                                    const Dialect& dialect,
-                                    const grid::LengthMap& map,
-                                    double every_mm,
+Result<ProgramSummary> path_lengths(LineSource& source, const Dialect& dialect,
+                                    const grid::LengthMap& map, double every_mm,
                                     const std::function<void(const PathLengths&)>& write,
                                     Findings& findings) {
   if (!(every_mm > 0.0)) throw grid::precondition("places every {} mm make no path", every_mm);
@@ -147,9 +140,7 @@ Result<ProgramSummary> path_lengths(LineSource& source,
   return run_program(source, dialect, sampler);
 }
 
-Result<Survey> survey(LineSource& source,
-                      const Dialect& dialect,
-                      const Sheet& sheet,
+Result<Survey> survey(LineSource& source, const Dialect& dialect, const Sheet& sheet,
                       Findings& findings) {
   Surveyor surveyor(sheet, findings);
   return run_program(source, dialect, surveyor).map([&](const ProgramSummary& program) {

@@ -25,12 +25,8 @@ struct PathLengths {
 /// Writes the lengths at each point; points off the map become problems of `findings` instead, one
 /// for each line of the program.
 [[nodiscard]] Result<ProgramSummary> path_lengths(
-    LineSource& source,
-    const Dialect& dialect,
-    const grid::LengthMap& map,
-    double every_mm,
-    const std::function<void(const PathLengths&)>& write,
-    Findings& findings);
+    LineSource& source, const Dialect& dialect, const grid::LengthMap& map, double every_mm,
+    const std::function<void(const PathLengths&)>& write, Findings& findings);
 
 struct Box {
   Point least;
@@ -55,9 +51,7 @@ struct Survey {
 };
 
 /// \param sheet lines that leave it become problems (outside_sheet).
-[[nodiscard]] Result<Survey> survey(LineSource& source,
-                                    const Dialect& dialect,
-                                    const Sheet& sheet,
+[[nodiscard]] Result<Survey> survey(LineSource& source, const Dialect& dialect, const Sheet& sheet,
                                     Findings& findings);
 
 }  // namespace chaintrue::gcode

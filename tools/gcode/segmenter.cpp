@@ -45,12 +45,8 @@ constexpr double kShortestMm = 0.002;
 double rounding_mm(int decimals) { return 0.5 * std::sqrt(3.0) * std::pow(10.0, -decimals); }
 
 /// From the controller's path.
-Corrected<double> deviation_from(CommandWay& way,
-                                 bool own_way,
-                                 const Curve& curve,
-                                 const PathSample& a,
-                                 const PathSample& b,
-                                 double length_mm) {
+Corrected<double> deviation_from(CommandWay& way, bool own_way, const Curve& curve,
+                                 const PathSample& a, const PathSample& b, double length_mm) {
   int checks = std::max(kFewestChecks,
                         static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   // Each of the controller's pieces bows: the worst point is in the middle of one, or between two.
@@ -86,26 +82,20 @@ Segmenter::Segmenter(const Corrector& corrector, double tolerance_mm, int decima
       rounding_mm(decimals) + (firmware.single_precision ? kSinglePrecisionMm : 0.0);
   tolerance_mm_ = ((1.0 - kSpare) * tolerance_mm - rounding) / kStretch;
   if (!(tolerance_mm_ > 0.0)) {
-    throw grid::precondition(
-        "a tolerance of {} mm is used up by rounding to {} decimals", tolerance_mm, decimals);
+    throw grid::precondition("a tolerance of {} mm is used up by rounding to {} decimals",
+                             tolerance_mm, decimals);
   }
   if (is_chain_linear(firmware)) return;
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   unchecked_mm_ = std::sqrt(8.0 * kUncheckedShare * tolerance_mm_ / std::max(curvature, 1e-9));
 }
 
-Corrected<double> Segmenter::deviation_mm(const Curve& curve,
-                                          const PathSample& a,
-                                          const PathSample& b,
-                                          double length_mm,
+Corrected<double> Segmenter::deviation_mm(const Curve& curve, const PathSample& a,
+                                          const PathSample& b, double length_mm,
                                           double feed_mm_per_min) const {
   const auto way = [&](double doubt_mm) {
-    return CommandWay(corrector_.firmware(),
-                      corrector_.kinematics(),
-                      a.command,
-                      b.command,
-                      feed_mm_per_min,
-                      doubt_mm);
+    return CommandWay(corrector_.firmware(), corrector_.kinematics(), a.command, b.command,
+                      feed_mm_per_min, doubt_mm);
   };
   // If rounding decides the number of the controller's pieces, both numbers must be within the
   // tolerance: a piece's bow may be on the curve's side of the chord or on the other.
@@ -118,11 +108,8 @@ Corrected<double> Segmenter::deviation_mm(const Curve& curve,
   return second ? std::max(*first, *second) : second;
 }
 
-Corrected<void> Segmenter::run(const Curve& curve,
-                               const PathSample& start,
-                               double end,
-                               Extent extent,
-                               const std::function<void(const PathSample&)>& visit) {
+Corrected<void> Segmenter::run(const Curve& curve, const PathSample& start, double end,
+                               Extent extent, const std::function<void(const PathSample&)>& visit) {
   const double length_mm = extent.length_mm;
   const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
   PathSample a = start;

@@ -50,20 +50,14 @@ class Segmenter {
   /// Visits the samples after `start` up to t = `end`, in order.
   /// \param extent the curve's length from start to end, which affects only the first trial and
   /// the density of checks, and the largest part of it that one command may cover.
-  Corrected<void> run(const Curve& curve,
-                      const PathSample& start,
-                      double end,
-                      Extent extent,
+  Corrected<void> run(const Curve& curve, const PathSample& start, double end, Extent extent,
                       const std::function<void(const PathSample&)>& visit);
 
  private:
   /// The largest distance from the curve between two samples to the controller's path between their
   /// commands.
-  Corrected<double> deviation_mm(const Curve& curve,
-                                 const PathSample& a,
-                                 const PathSample& b,
-                                 double length_mm,
-                                 double feed_mm_per_min) const;
+  Corrected<double> deviation_mm(const Curve& curve, const PathSample& a, const PathSample& b,
+                                 double length_mm, double feed_mm_per_min) const;
 
   const Corrector& corrector_;
   double tolerance_mm_ = 0.0;  // of a chord

@@ -26,19 +26,15 @@ double in_single_precision(double value) {
 
 [[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
   const bool controller = failure.reason == CorrectionReason::controller;
-  refuse(controller ? outside_controller : outside_map,
-         {line},
-         "{}: the tool's position {}",
-         in_xy(command),
-         failure.sentence());
+  refuse(controller ? outside_controller : outside_map, {line}, "{}: the tool's position {}",
+         in_xy(command), failure.sentence());
 }
 
 }  // namespace
 
 Point SimulatedMachine::as_read(Point point) const {
   if (!corrector_.firmware().single_precision) return point;
-  return {in_single_precision(point.x_mm),
-          in_single_precision(point.y_mm),
+  return {in_single_precision(point.x_mm), in_single_precision(point.y_mm),
           in_single_precision(point.z_mm)};
 }
 

@@ -61,9 +61,7 @@ struct Operator {
 
 /// `**` before `*`.
 constexpr Operator kOperators[] = {
-    {"**",
-     5,
-     [](double a, double b) { return std::pow(a, b); },
+    {"**", 5, [](double a, double b) { return std::pow(a, b); },
      "a negative number has no such power"},
     {"*", 4, [](double a, double b) { return a * b; }},
     {"/", 4, [](double a, double b) { return b == 0.0 ? kNone : a / b; }, "a division by zero"},
@@ -198,8 +196,8 @@ double ValueReader::number() {
   std::string_view digits = text.substr(at_, end - at_);
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0.0;
-  const auto [stop, error] = grid::files::parse_double(
-      digits.data(), digits.data() + digits.size(), value, grid::files::NumberForm::fixed);
+  const auto [stop, error] = grid::files::parse_double(digits.data(), digits.data() + digits.size(),
+                                                       value, grid::files::NumberForm::fixed);
   if (digits.empty() || error == std::errc::invalid_argument) {
     refuse(bad_number, start, "a number was expected here");
   }
@@ -245,10 +243,7 @@ double ValueReader::parameter() {
   }
   const auto index = integer();
   if (index < 1 || index >= parameter::kCount) {
-    refuse(bad_parameter,
-           start,
-           "#{} does not exist: parameters are numbered 1 to {}",
-           index,
+    refuse(bad_parameter, start, "#{} does not exist: parameters are numbered 1 to {}", index,
            parameter::kCount - 1);
   }
   return parameters_.get(static_cast<int>(index));

@@ -62,10 +62,8 @@ Dialect with_home_at_zero(Dialect dialect) {
 }
 
 SimulatedMachine::Options machine_options(const VerifyOptions& options) {
-  return {options.half_play_mm,
-          kFlatnessShare * options.tolerance_mm,
-          kFieldShare * options.tolerance_mm,
-          options.rapids_whole};
+  return {options.half_play_mm, kFlatnessShare * options.tolerance_mm,
+          kFieldShare * options.tolerance_mm, options.rapids_whole};
 }
 
 /// Length of moves that may vanish by rounding.
@@ -75,18 +73,13 @@ double least_run_mm(const VerifyOptions& options) {
 
 class Verification {
  public:
-  Verification(LineSource& original,
-               LineSource& run,
-               const Corrector& corrector,
-               const Dialect& dialect,
-               const VerifyOptions& options)
+  Verification(LineSource& original, LineSource& run, const Corrector& corrector,
+               const Dialect& dialect, const VerifyOptions& options)
       : intended_(original, dialect),
         run_(run, with_home_at_zero(dialect)),
         options_(options),
         machine_(corrector, machine_options(options)),
-        matcher_({kLeft * options.tolerance_mm,
-                  options.speed_share,
-                  least_run_mm(options),
+        matcher_({kLeft * options.tolerance_mm, options.speed_share, least_run_mm(options),
                   PathMatcher::Limits{}.most_open},
                  [this](PathPiece& piece) { return next_piece(piece); }) {}
 
@@ -162,11 +155,10 @@ class Verification {
 
   int chords_of(const Arc& arc) const {
     constexpr double kWidestChordRad = 2.0 * std::numbers::pi / kFewestChordsPerTurn;
-    return static_cast<int>(std::min(1e8,
-                                     chords_within(std::max(arc.start_radius_mm, arc.end_radius_mm),
-                                                   arc.sweep_rad,
-                                                   kArcShare * options_.tolerance_mm,
-                                                   std::fabs(arc.sweep_rad) / kWidestChordRad)));
+    return static_cast<int>(
+        std::min(1e8, chords_within(std::max(arc.start_radius_mm, arc.end_radius_mm), arc.sweep_rad,
+                                    kArcShare * options_.tolerance_mm,
+                                    std::fabs(arc.sweep_rad) / kWidestChordRad)));
   }
 
   /// Both curves start: at the end of a rapid or of the way from home, or at the start of a cut.
@@ -179,8 +171,7 @@ class Verification {
     const ProgramEvent& event = expected();
     if (before != PathMatcher::Outcome::follows || event.kind != ProgramEvent::Kind::move) {
       stray(before == PathMatcher::Outcome::follows
-                ? fmt::format("the run moves on line {} where the original has {}",
-                              command.line,
+                ? fmt::format("the run moves on line {} where the original has {}", command.line,
                               event.word.text.empty() ? "its end" : event.word.text)
                 : fmt::format("the heights before the first place differ (line {})", command.line));
       stopped_ = true;
@@ -232,10 +223,7 @@ class Verification {
       summary_.motion_differs = fmt::format(
           "line {} of the file run moves at {}, but line {} of the original has a different motion "
           "or feed, near {}",
-          piece.line,
-          words(piece),
-          front.original_line,
-          words(front.intended));
+          piece.line, words(piece), front.original_line, words(front.intended));
       first_fault(summary_.motion_differs);
       matcher_.ignore_speed();
       outcome = matcher_.advance(piece);
@@ -243,13 +231,11 @@ class Verification {
     if (outcome == PathMatcher::Outcome::past_end) {
       const ProgramEvent& event = expected();
       if (event.kind == ProgramEvent::Kind::word) {
-        return differ(fmt::format("missing: {}", event.word.text),
-                      fmt::format("{} of line {} of the original is not at its position, {}; line "
-                                  "{} of the file run moves on",
-                                  event.word.text,
-                                  event.line,
-                                  words(matcher_.path_end()),
-                                  piece.line));
+        return differ(
+            fmt::format("missing: {}", event.word.text),
+            fmt::format("{} of line {} of the original is not at its position, {}; line "
+                        "{} of the file run moves on",
+                        event.word.text, event.line, words(matcher_.path_end()), piece.line));
       }
     }
     if (outcome == PathMatcher::Outcome::follows) return;
@@ -257,10 +243,7 @@ class Verification {
     stray(
         fmt::format("line {} of the file run moves the tool to {}, away from line {} of the "
                     "original at {}",
-                    piece.line,
-                    words(piece.to),
-                    front.original_line,
-                    words(front.intended)));
+                    piece.line, words(piece.to), front.original_line, words(front.intended)));
     matcher_.advance_anyhow(piece);
   }
 
@@ -275,14 +258,11 @@ class Verification {
         return differ(fmt::format("{} comes too early", name),
                       fmt::format("{} on line {} of the file run is too early: the path is not "
                                   "finished at {}",
-                                  name,
-                                  found.line,
-                                  words(matcher_.front().intended)));
+                                  name, found.line, words(matcher_.front().intended)));
       }
       stray(is_end ? fmt::format("the file run ends on line {}, before the path of line {} of the "
                                  "original is complete",
-                                 found.line,
-                                 matcher_.front().original_line)
+                                 found.line, matcher_.front().original_line)
                    : place_fault());
       matcher_.finish_anyhow();
     }
@@ -296,10 +276,7 @@ class Verification {
       return differ(
           difference,
           fmt::format("line {} of the file run has {}, but line {} of the original has {}",
-                      found.line,
-                      name,
-                      event.line,
-                      wanted));
+                      found.line, name, event.line, wanted));
     }
     if (is_end) {
       if (summary_.commands == 0 && !moves_itself_) stray("the file run does not move the tool");
@@ -324,10 +301,7 @@ class Verification {
     return fmt::format(
         "on line {} of the file run the tool is at {}, {:.4f} mm from its position {} on line {} "
         "of the original",
-        front.run_line,
-        words(front.tool),
-        front.distance_mm,
-        words(front.intended),
+        front.run_line, words(front.tool), front.distance_mm, words(front.intended),
         front.original_line);
   }
 
@@ -365,8 +339,7 @@ class Verification {
 
 }  // namespace
 
-tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
-                                                  LineSource& run,
+tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original, LineSource& run,
                                                   const Corrector& corrector,
                                                   const Dialect& dialect,
                                                   const VerifyOptions& options) {
@@ -379,10 +352,8 @@ tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
   }
 }
 
-Result<Deviation> uncompensated(LineSource& original,
-                                const Corrector& corrector,
-                                const Dialect& dialect,
-                                const VerifyOptions& options) {
+Result<Deviation> uncompensated(LineSource& original, const Corrector& corrector,
+                                const Dialect& dialect, const VerifyOptions& options) {
   ProgramStream stream(original, dialect);
   SimulatedMachine machine(corrector, machine_options(options));
   Deviation worst;

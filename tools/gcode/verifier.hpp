@@ -75,9 +75,7 @@ struct VerifyProblem {
                                                                 const VerifyOptions& options);
 
 /// The deviation of the tool from the intended path for an uncompensated program.
-[[nodiscard]] Result<Deviation> uncompensated(LineSource& original,
-                                              const Corrector& corrector,
-                                              const Dialect& dialect,
-                                              const VerifyOptions& options);
+[[nodiscard]] Result<Deviation> uncompensated(LineSource& original, const Corrector& corrector,
+                                              const Dialect& dialect, const VerifyOptions& options);
 
 }  // namespace chaintrue::gcode

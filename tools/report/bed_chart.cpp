@@ -55,10 +55,7 @@ Outline Outline::widened(double margin_mm) const {
 void Outline::require_extent() const {
   if (width_mm() > 0.0 && height_mm() > 0.0) return;
   throw grid::precondition("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                           x_min_mm,
-                           x_max_mm,
-                           y_min_mm,
-                           y_max_mm);
+                           x_min_mm, x_max_mm, y_min_mm, y_max_mm);
 }
 
 double round_down_125(double value) {
@@ -70,17 +67,13 @@ double round_down_125(double value) {
   return decade;
 }
 
-std::vector<Signal> view_signals(const Outline& view,
-                                 const Outline& sheet,
+std::vector<Signal> view_signals(const Outline& view, const Outline& sheet,
                                  const std::vector<Signal>& others) {
-  std::vector<Signal> signals = {{"x_min_mm", view.x_min_mm},
-                                 {"x_max_mm", view.x_max_mm},
-                                 {"y_min_mm", view.y_min_mm},
-                                 {"y_max_mm", view.y_max_mm},
-                                 {"sheet_x_min_mm", sheet.x_min_mm},
-                                 {"sheet_x_max_mm", sheet.x_max_mm},
-                                 {"sheet_y_min_mm", sheet.y_min_mm},
-                                 {"sheet_y_max_mm", sheet.y_max_mm}};
+  std::vector<Signal> signals = {
+      {"x_min_mm", view.x_min_mm},        {"x_max_mm", view.x_max_mm},
+      {"y_min_mm", view.y_min_mm},        {"y_max_mm", view.y_max_mm},
+      {"sheet_x_min_mm", sheet.x_min_mm}, {"sheet_x_max_mm", sheet.x_max_mm},
+      {"sheet_y_min_mm", sheet.y_min_mm}, {"sheet_y_max_mm", sheet.y_max_mm}};
   signals.insert(signals.end(), others.begin(), others.end());
   return signals;
 }
@@ -97,9 +90,7 @@ double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows) 
   return longest_mm > 0.0 ? round_down_125(kLongestArrow * sheet.width_mm() / longest_mm) : 1.0;
 }
 
-Chart arrows_chart(const Outline& sheet,
-                   const std::vector<Arrow>& arrows,
-                   double magnification,
+Chart arrows_chart(const Outline& sheet, const std::vector<Arrow>& arrows, double magnification,
                    const char* color) {
   DataTable table{
       "arrows",
@@ -109,37 +100,26 @@ Chart arrows_chart(const Outline& sheet,
   for (const Arrow& arrow : arrows) {
     const double shown = shown_of(arrow, view, magnification);
     if (shown != 1.0) cut.push_back(fmt::format("{} ({:.2f} mm)", arrow.name, length_mm(arrow)));
-    table.rows.push_back({arrow.name,
-                          arrow.x_mm,
-                          arrow.y_mm,
-                          arrow.dx_mm,
-                          arrow.dy_mm,
-                          arrow.is_bad,
-                          arrow.noise_x_mm,
-                          arrow.noise_y_mm,
-                          shown});
+    table.rows.push_back({arrow.name, arrow.x_mm, arrow.y_mm, arrow.dx_mm, arrow.dy_mm,
+                          arrow.is_bad, arrow.noise_x_mm, arrow.noise_y_mm, shown});
   }
   const double key_mm = round_down_125(kLongestArrow * sheet.width_mm() / magnification);
   const std::string key = fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification);
-  return {.specification = "bed_arrows",
-          .caption = cut.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(cut, ", ")),
-          .data = {std::move(table)},
-          .signals = view_signals(view,
-                                  sheet,
-                                  {{"magnification", magnification},
-                                   {"key_mm", key_mm},
-                                   {"key_text", key},
-                                   {"color", std::string(color)}})};
+  return {
+      .specification = "bed_arrows",
+      .caption = cut.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(cut, ", ")),
+      .data = {std::move(table)},
+      .signals = view_signals(view, sheet,
+                              {{"magnification", magnification},
+                               {"key_mm", key_mm},
+                               {"key_text", key},
+                               {"color", std::string(color)}})};
 }
 
-std::vector<ChartRow> arrow_rows(const Outline& sheet,
-                                 const std::vector<Arrow>& before,
-                                 const std::vector<Arrow>& after,
-                                 const ArrowWords& words) {
-  const auto chart = [&sheet](const std::vector<Arrow>& arrows,
-                              double magnification,
-                              const char* color,
-                              const std::string& title,
+std::vector<ChartRow> arrow_rows(const Outline& sheet, const std::vector<Arrow>& before,
+                                 const std::vector<Arrow>& after, const ArrowWords& words) {
+  const auto chart = [&sheet](const std::vector<Arrow>& arrows, double magnification,
+                              const char* color, const std::string& title,
                               const std::string& caption) {
     Chart drawn = arrows_chart(sheet, arrows, magnification, color);
     drawn.title = title;
@@ -152,13 +132,9 @@ std::vector<ChartRow> arrow_rows(const Outline& sheet,
   if (after.empty()) return rows;
   rows[0].charts.push_back(chart(after, coarse, kAfterColor, words.after, words.after_caption));
   if (fine >= 2.0 * coarse) {
-    rows.push_back({{chart(
-        after,
-        fine,
-        kAfterColor,
-        "After, magnified",
-        fmt::format(
-            "The same arrows, {:g} times larger.{}", fine / coarse, words.close_caption))}});
+    rows.push_back({{chart(after, fine, kAfterColor, "After, magnified",
+                           fmt::format("The same arrows, {:g} times larger.{}", fine / coarse,
+                                       words.close_caption))}});
   }
   return rows;
 }

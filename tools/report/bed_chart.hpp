@@ -62,8 +62,7 @@ struct Arrow {
 double round_down_125(double value);
 
 /// The signals declared by the charts of the bed, and others after them.
-std::vector<Signal> view_signals(const Outline& view,
-                                 const Outline& sheet,
+std::vector<Signal> view_signals(const Outline& view, const Outline& sheet,
                                  const std::vector<Signal>& others = {});
 /// The view shows the sheet and the marks, with a margin of 5 % of the sheet's width.
 /// \throws std::invalid_argument for a sheet without an extent.
@@ -75,9 +74,7 @@ double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
 /// charts/bed_arrows without a title; the scale is printed in the chart. The arrow of a bad point, which does not
 /// count for the scale, ends at the frame, and the caption names it with its length:
 /// " Cut off at the frame: point 9 (25.40 mm)."
-Chart arrows_chart(const Outline& sheet,
-                   const std::vector<Arrow>& arrows,
-                   double magnification,
+Chart arrows_chart(const Outline& sheet, const std::vector<Arrow>& arrows, double magnification,
                    const char* color);
 /// Texts of the charts before and after.
 struct ArrowWords {
@@ -87,9 +84,7 @@ struct ArrowWords {
 };
 /// Before and after at one scale, and after once more if it is much smaller; only before if there
 /// is nothing after.
-std::vector<ChartRow> arrow_rows(const Outline& sheet,
-                                 const std::vector<Arrow>& before,
-                                 const std::vector<Arrow>& after,
-                                 const ArrowWords& words);
+std::vector<ChartRow> arrow_rows(const Outline& sheet, const std::vector<Arrow>& before,
+                                 const std::vector<Arrow>& after, const ArrowWords& words);
 
 }  // namespace chaintrue::report

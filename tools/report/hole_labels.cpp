@@ -46,8 +46,7 @@ double distance_to(const HoleLabel& label, double x, double y) {
                     std::max({label.top - y, 0.0, y - label.bottom}));
 }
 
-std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
-                                    double left,
+std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes, double left,
                                     double right) {
   std::vector<HoleLabel> taken;
   for (const DrawnHole& hole : holes) {
@@ -58,7 +57,8 @@ std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
     // 0: nearer to its hole than to any other, without overlap, and within the drawing.
     const auto fault_of = [&](const HoleLabel& label) {
       // Off the bed it would be cut at the picture's edge.
-      double fault = kHigh * (std::max(0.0, left - label.left) + std::max(0.0, label.right - right));
+      double fault =
+          kHigh * (std::max(0.0, left - label.left) + std::max(0.0, label.right - right));
       for (const HoleLabel& other : taken) fault += overlap(label, other);
       // Clearly nearer: by half as much again.
       const double clear_of = 1.5 * distance_to(label, hole.x, hole.y);
@@ -69,9 +69,8 @@ std::vector<HoleLabel> place_labels(const std::vector<DrawnHole>& holes,
       return fault;
     };
     std::vector<HoleLabel> labels = labels_around(hole);
-    std::stable_sort(labels.begin(), labels.end(), [&](const auto& a, const auto& b) {
-      return fault_of(a) < fault_of(b);
-    });
+    std::stable_sort(labels.begin(), labels.end(),
+                     [&](const auto& a, const auto& b) { return fault_of(a) < fault_of(b); });
     taken.push_back(labels.front());
   }
   return {taken.begin() + static_cast<std::ptrdiff_t>(holes.size()), taken.end()};

@@ -24,18 +24,15 @@ std::vector<Arrow> arrows_of(const MapPictures& report, PointVector vector) {
   return arrows;
 }
 
-Section before_after_section(const MapPictures& report,
-                             const std::vector<Arrow>& before,
+Section before_after_section(const MapPictures& report, const std::vector<Arrow>& before,
                              const std::vector<Arrow>& after) {
   const std::vector<ChartRow> rows = arrow_rows(
-      report.sheet,
-      before,
-      after,
+      report.sheet, before, after,
       {"Before: " + report.before_what,
-       "Each arrow points from the intended to the actual position of the tool. Hover over or tap a "
+       "Each arrow points from the intended to the actual position of the tool. Hover over or tap "
+       "a "
        "point for its values.",
-       "After: with the map, same scale",
-       "The residual at the points that the map was made from.",
+       "After: with the map, same scale", "The residual at the points that the map was made from.",
        " Random directions are noise; neighbours that point the same way would mean an error that "
        "the map has missed."});
   return {"Before and after", {rows.begin(), rows.end()}};
@@ -45,11 +42,9 @@ Section steps_section(const MapPictures& report) {
   static constexpr const char* kColorOfKind[] = {kBeforeColor, kAfterColor, kNeutralColor};
   Chart chart{.specification = "error_steps", .title = "Error at the tool, rms"};
   DataTable steps{"steps", {"what", "rms_mm", "max_text", "color"}};
-  Table table{
-      {{"error of the tool"}, {"rms, mm", true}, {"worst, mm", true}, {"what it is"}}};
+  Table table{{{"error of the tool"}, {"rms, mm", true}, {"worst, mm", true}, {"what it is"}}};
   for (const ErrorStep& step : report.steps) {
-    steps.rows.push_back({step.what,
-                          step.rms_mm,
+    steps.rows.push_back({step.what, step.rms_mm,
                           step.max_mm ? fixed(*step.max_mm, 2) + " mm" : "\u2013",
                           std::string(kColorOfKind[static_cast<std::size_t>(step.kind)])});
     table.rows.push_back({{step.what, step.rms_mm, step.max_mm, step.note}});
@@ -61,8 +56,7 @@ Section steps_section(const MapPictures& report) {
 /// The points that were predicted from the others.
 struct HeldOut {
   DataTable hits{"hits", {"name", "dx_mm", "dy_mm", "is_bad"}};
-  DataTable points{
-      "points", {"number", "name", "x_mm", "y_mm", "error_mm", "sigmas", "is_bad"}};
+  DataTable points{"points", {"number", "name", "x_mm", "y_mm", "error_mm", "sigmas", "is_bad"}};
   double max_mm = 0.0;
   double max_of_good_mm = 0.0;
   bool has_bad = false;
@@ -79,13 +73,8 @@ HeldOut held_out_of(const MapPictures& report) {
     result.has_bad |= point.is_bad;
     result.hits.rows.push_back(
         {point.name, point.held_out->x_mm, point.held_out->y_mm, point.is_bad});
-    result.points.rows.push_back({static_cast<double>(i + 1),
-                                  point.name,
-                                  point.x_mm,
-                                  point.y_mm,
-                                  error_mm,
-                                  point.held_out_sigmas,
-                                  point.is_bad});
+    result.points.rows.push_back({static_cast<double>(i + 1), point.name, point.x_mm, point.y_mm,
+                                  error_mm, point.held_out_sigmas, point.is_bad});
   }
   return result;
 }
@@ -103,7 +92,8 @@ ChartRow held_out_charts(const MapPictures& report, const HeldOut& held_out) {
       .signals = {{"reach_mm", 1.15 * std::max({held_out.max_of_good_mm, rms_mm, 1e-3})}}};
   DataTable lines{"lines", {"value_mm", "label", "is_dashed"}, {rms}};
   if (noise_mm > 0.0)
-    lines.rows.push_back({noise_mm, fmt::format("noise of the readings {:.2f} mm", noise_mm), true});
+    lines.rows.push_back(
+        {noise_mm, fmt::format("noise of the readings {:.2f} mm", noise_mm), true});
   Chart one_by_one{
       .specification = "held_out_points",
       .title = "Point by point",
@@ -125,8 +115,7 @@ Chart error_map_chart(const MapPictures& report) {
   Chart chart{
       .specification = "error_map",
       .title = "Expected error over the bed",
-      .caption =
-          "One sigma at the tool, from the noise of the readings. Circles are the points."};
+      .caption = "One sigma at the tool, from the noise of the readings. Circles are the points."};
   DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}};
   bool are_all_inside = true;
   for (const ErrorCell& cell : map.cells) {
@@ -151,7 +140,8 @@ Chart error_map_chart(const MapPictures& report) {
 
 std::vector<Section> picture_sections(const MapPictures& map) {
   std::vector<Section> sections;
-  const auto before = arrows_of(map, &ReportPoint::before), after = arrows_of(map, &ReportPoint::after);
+  const auto before = arrows_of(map, &ReportPoint::before),
+             after = arrows_of(map, &ReportPoint::after);
   if (!before.empty() && !after.empty())
     sections.push_back(before_after_section(map, before, after));
   if (!map.steps.empty()) sections.push_back(steps_section(map));

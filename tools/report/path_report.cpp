@@ -57,7 +57,8 @@ void stretch(double& low, double& high, double least) {
 }
 
 /// What the cuts reach, before and after; the sheet if there are none.
-Outline part_of(const PathReport& report, const std::vector<PathPiece>& cuts, double magnification) {
+Outline part_of(const PathReport& report, const std::vector<PathPiece>& cuts,
+                double magnification) {
   if (cuts.empty()) return report.sheet;
   Outline part{1e9, -1e9, 1e9, -1e9};
   const auto include = [&](double x_mm, double y_mm, const ToolVector& correction) {
@@ -92,7 +93,8 @@ void add_rows(DataTable& table, const PathPiece& piece, const Outline& view, std
   const bool is_whole = piece.is_rapid || pieces > PathReport::kMostPieces / 60;
   const double length = std::hypot(piece.x1_mm - piece.x0_mm, piece.y1_mm - piece.y0_mm);
   const int parts =
-      is_whole ? 1 : std::clamp(static_cast<int>(length / (kColouredShare * view.width_mm())), 1, 60);
+      is_whole ? 1
+               : std::clamp(static_cast<int>(length / (kColouredShare * view.width_mm())), 1, 60);
   const auto row = [&](int i) {
     const double t = static_cast<double>(i) / parts;
     return std::array{
@@ -137,16 +139,8 @@ Document page_of(const PathReport& report) {
   const Outline view = view_around(part_of(report, cuts, magnification));
   const Colours colours = colours_of(cuts);
   DataTable table{"pieces",
-                  {"line",
-                   "is_rapid",
-                   "x0_mm",
-                   "y0_mm",
-                   "x1_mm",
-                   "y1_mm",
-                   "dx0_mm",
-                   "dy0_mm",
-                   "dx1_mm",
-                   "dy1_mm"}};
+                  {"line", "is_rapid", "x0_mm", "y0_mm", "x1_mm", "y1_mm", "dx0_mm", "dy0_mm",
+                   "dx1_mm", "dy1_mm"}};
   for (const PathPiece& piece : report.pieces())
     add_rows(table, piece, view, report.pieces().size());
   const Chart chart{
@@ -157,15 +151,10 @@ Document page_of(const PathReport& report) {
           "with its distance from the grey one drawn {:g} times as large. Dashed: rapids. The "
           "picture shows the cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the "
           "sheet is tinted.{}",
-          magnification,
-          view.x_min_mm,
-          view.x_max_mm,
-          view.y_min_mm,
-          view.y_max_mm,
+          magnification, view.x_min_mm, view.x_max_mm, view.y_min_mm, view.y_max_mm,
           report.stride() > 1 ? fmt::format(" One piece in {} is drawn.", report.stride()) : ""),
       .data = {std::move(table)},
-      .signals = view_signals(view,
-                              report.sheet,
+      .signals = view_signals(view, report.sheet,
                               {{"magnification", magnification},
                                {"least_mm", colours.least_mm},
                                {"largest_mm", colours.largest_mm}})};

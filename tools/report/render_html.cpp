@@ -31,7 +31,8 @@ std::string script_json(const Json& json) {
 }
 
 Json json_of(const Value& value, std::string_view where) {
-  if (const auto* number = std::get_if<double>(&value); number != nullptr && !std::isfinite(*number))
+  if (const auto* number = std::get_if<double>(&value);
+      number != nullptr && !std::isfinite(*number))
     throw grid::precondition("{} is {}, which no chart can draw", where, *number);
   return std::visit([](const auto& held) -> Json { return held; }, value);
 }
@@ -40,10 +41,8 @@ Json rows_of(const DataTable& table) {
   Json rows = Json::array();
   for (const auto& row : table.rows) {
     if (row.size() != table.fields.size()) {
-      throw grid::precondition("data table \"{}\": a row has {} values for {} fields",
-                               table.name,
-                               row.size(),
-                               table.fields.size());
+      throw grid::precondition("data table \"{}\": a row has {} values for {} fields", table.name,
+                               row.size(), table.fields.size());
     }
     Json object;
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -82,11 +81,9 @@ class HtmlWriter {
     add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n",
-        escaped(page.title),
-        embedded_text("asset", "page.css"));
+        escaped(page.title), embedded_text("asset", "page.css"));
     add("<body>\n<main{}>\n<header>\n<h1>{}</h1>\n",
-        page.is_one_sheet ? " class=\"one-sheet\"" : "",
-        escaped(page.title));
+        page.is_one_sheet ? " class=\"one-sheet\"" : "", escaped(page.title));
     element("<p class=\"subtitle\">", escaped(page.subtitle), "</p>\n");
     add("</header>\n");
   }
@@ -102,17 +99,14 @@ class HtmlWriter {
     for (const Light& light : lights) {
       items += fmt::format(
           "<li class=\"{}\"><i aria-hidden=\"true\">{}</i><span><b>{}</b> {}</span></li>\n",
-          tone_class(light.tone),
-          kSign[static_cast<std::size_t>(light.tone)],
-          escaped(light.question),
-          escaped(light.answer));
+          tone_class(light.tone), kSign[static_cast<std::size_t>(light.tone)],
+          escaped(light.question), escaped(light.answer));
     }
     element("<ul class=\"lights\">\n", items, "</ul>\n");
   }
 
   void verdict(const Document& page) {
-    add("<div class=\"verdict {}\">\n<p class=\"sentence\">{}</p>\n",
-        tone_class(page.tone),
+    add("<div class=\"verdict {}\">\n<p class=\"sentence\">{}</p>\n", tone_class(page.tone),
         set(page.verdict.text));
     write_lights(page.lights);
     std::string advice;
@@ -169,8 +163,7 @@ class HtmlWriter {
   void write(const Figures& figures) {
     std::string boxes;
     for (const Figure& figure : figures.figures) {
-      boxes += fmt::format("<div><b>{}</b><span>{}</span></div>\n",
-                           escaped(figure.value),
+      boxes += fmt::format("<div><b>{}</b><span>{}</span></div>\n", escaped(figure.value),
                            explained(figure.label));
     }
     element("<div class=\"figures\">\n", boxes, "</div>\n");
@@ -202,9 +195,7 @@ class HtmlWriter {
       add("<tr{}>", row.is_flagged ? " class=\"flagged\"" : "");
       for (std::size_t i = 0; i < table.columns.size(); ++i) {
         const Column& column = table.columns[i];
-        add("<td{} data-heading=\"{}\">{}</td>",
-            number_class(column),
-            heading(column),
+        add("<td{} data-heading=\"{}\">{}</td>", number_class(column), heading(column),
             set(i < row.cells.size() ? text_of(row.cells[i], column) : ""));
       }
       add("</tr>\n");
@@ -236,9 +227,7 @@ class HtmlWriter {
       json["signals"][signal.name] = json_of(signal.value, signal.name);
     add("<figure class=\"chart\" data-spec=\"{}\">\n<h3>{}</h3>\n<div class=\"canvas\" "
         "id=\"{}\"></div>\n",
-        escaped(chart.specification),
-        set(chart.title),
-        id);
+        escaped(chart.specification), set(chart.title), id);
     if (chart.alternative) {
       add("<noscript>\n");
       write(*chart.alternative);
@@ -267,8 +256,7 @@ class HtmlWriter {
     add("(() => {{\nconst module = {{exports: {{}}}}, exports = module.exports;\n"
         "const require = (name) => chaintrueModules[name === \"vega-selections\" ? "
         "\"vega-selection\" : name];\n{}\nchaintrueModules[\"{}\"] = module.exports;\n}})();\n",
-        module.text,
-        module.name);
+        module.text, module.name);
   }
 
   /// A paragraph with the definition of each glossary term where it first occurs on the page.
@@ -283,10 +271,8 @@ class HtmlWriter {
           html.find("</abbr>", at) < html.find("<abbr", at)) {  // inside one already
         return false;
       }
-      html.replace(at,
-                   length,
-                   fmt::format("<abbr title=\"{}\" tabindex=\"0\">{}</abbr>",
-                               escaped(term.meaning),
+      html.replace(at, length,
+                   fmt::format("<abbr title=\"{}\" tabindex=\"0\">{}</abbr>", escaped(term.meaning),
                                term.word));
       return true;
     });

@@ -13,7 +13,8 @@ namespace chaintrue::report {
 
 std::string replaced(std::string text, std::initializer_list<Replacement> replacements) {
   for (const auto& [from, to] : replacements) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
       text.replace(at, from.size(), to);
   }
   return text;
@@ -62,8 +63,8 @@ std::string fixed(double value, int digits) {
 
 void check_row(const Table& table, const Row& row) {
   if (row.cells.size() <= table.columns.size()) return;
-  throw grid::precondition(
-      "a table row has {} cells for {} columns", row.cells.size(), table.columns.size());
+  throw grid::precondition("a table row has {} cells for {} columns", row.cells.size(),
+                           table.columns.size());
 }
 
 }  // namespace chaintrue::report

@@ -17,20 +17,17 @@ extern constinit const Effect chain_plane_offset{
                         "the sled",
                         30.0, 0.0, 300.0)},
     .cause = "the sprockets are farther from the sheet than the chains' ends at the sled",
-    .signature =
-        "a few tenths of a millimetre more chain near the upper corners",
+    .signature = "a few tenths of a millimetre more chain near the upper corners",
     .equation = "+ sqrt(S^2 + z^2) - S, both chains",
     .source = "Pythagoras; MaslowCNC forum",
-    .not_modelled =
-        "forces, which remain those of the flat machine",
+    .not_modelled = "forces, which remain those of the flat machine",
     .typical = "20 to 40 mm",
     .remedy = "level the chains with the sheet (spacers under the motors), or enter the distance",
-    .add =
-        [](const LengthState& chain, Values v) -> Number {
-          const double z = v[0];
-          if (z == 0.0) return {};
-          return z * z / (sqrt(chain.free_mm * chain.free_mm + z * z) + chain.free_mm);
-        },
+    .add = [](const LengthState& chain, Values v) -> Number {
+      const double z = v[0];
+      if (z == 0.0) return {};
+      return z * z / (sqrt(chain.free_mm * chain.free_mm + z * z) + chain.free_mm);
+    },
 };
 
 }  // namespace chaintrue::model::effects

@@ -82,8 +82,8 @@ Place Machine::to_machine(const Place& program) {
   const double c = std::cos(system().turn_rad);
   const double s = std::sin(system().turn_rad);
   const Place& origin = system().origin;
-  return {
-      origin[0] + c * x - s * y, origin[1] + s * x + c * y, origin[2] + program[2] + offset_[2]};
+  return {origin[0] + c * x - s * y, origin[1] + s * x + c * y,
+          origin[2] + program[2] + offset_[2]};
 }
 
 Place Machine::to_program(const Place& machine) {
@@ -92,8 +92,8 @@ Place Machine::to_program(const Place& machine) {
   const double y = machine[1] - origin[1];
   const double c = std::cos(system().turn_rad);
   const double s = std::sin(system().turn_rad);
-  return {
-      c * x + s * y - offset_[0], c * y - s * x - offset_[1], machine[2] - origin[2] - offset_[2]};
+  return {c * x + s * y - offset_[0], c * y - s * x - offset_[1],
+          machine[2] - origin[2] - offset_[2]};
 }
 
 Place Machine::target(const Line& line) {

@@ -64,8 +64,8 @@ double Reader::real() {
   const std::size_t from = at_;
   std::size_t end = at_;
   if (end < text_.size() && (text_[end] == '-' || text_[end] == '+')) ++end;
-  if (end < text_.size() && end > from && std::isdigit(static_cast<unsigned char>(text_[end])) == 0 &&
-      text_[end] != '.') {
+  if (end < text_.size() && end > from &&
+      std::isdigit(static_cast<unsigned char>(text_[end])) == 0 && text_[end] != '.') {
     ++at_;
     return text_[from] == '-' ? -real() : real();
   }
@@ -79,8 +79,8 @@ double Reader::real() {
 }
 
 double Reader::function() {
-  static constexpr const char* kNames[] = {
-      "atan", "abs", "acos", "asin", "cos", "exp", "fix", "fup", "ln", "round", "sin", "sqrt", "tan"};
+  static constexpr const char* kNames[] = {"atan", "abs", "acos",  "asin", "cos",  "exp", "fix",
+                                           "fup",  "ln",  "round", "sin",  "sqrt", "tan"};
   for (const std::string name : kNames) {
     if (!accept(name)) continue;
     if (!accept("[")) throw std::runtime_error("'[' is missing behind " + name);
@@ -119,7 +119,8 @@ std::string Reader::next_operator(int precedence) {
 double Reader::operand(int precedence) {
   if (precedence == 5) return real();
   double value = operand(precedence + 1);
-  for (std::string name = next_operator(precedence); !name.empty(); name = next_operator(precedence))
+  for (std::string name = next_operator(precedence); !name.empty();
+       name = next_operator(precedence))
     value = apply(name, value, operand(precedence + 1));
   return value;
 }

@@ -71,7 +71,8 @@ std::optional<StrictLine> read_strictly(const std::string& line, std::string& ob
       return std::nullopt;
     }
     std::size_t end = at + 1;
-    while (end < line.size() && (is_digit(line[end]) || line[end] == '.' || line[end] == '-' || line[end] == '+'))
+    while (end < line.size() &&
+           (is_digit(line[end]) || line[end] == '.' || line[end] == '-' || line[end] == '+'))
       ++end;
     const auto value = strict_number(line.substr(at + 1, end - at - 1));
     if (!value) {

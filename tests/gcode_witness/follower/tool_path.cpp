@@ -22,7 +22,8 @@ std::optional<Place> tool(const Workshop& workshop, model::ChainLengths lengths,
 }
 
 /// Appends the tool's positions after the beginning of one command.
-bool follow(const Workshop& workshop, const Place& from, const Place& to, std::vector<Place>& path) {
+bool follow(const Workshop& workshop, const Place& from, const Place& to,
+            std::vector<Place>& path) {
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
   const double piece_mm = workshop.chain_linear_piece_mm;
   const int pieces = piece_mm > 0.0 ? std::max(1, static_cast<int>(length / piece_mm)) : 1;

@@ -157,15 +157,11 @@ std::string shown(const Call& call) {
   if (call.kind == "STATE") return "STATE " + call.state;
   if (call.kind == "DWELL" || call.kind == "TOOL")
     return fmt::format("{} {} {}", call.kind, call.line, call.value);
-  std::string text = fmt::format(
-      "{} {} {:.6f} {:.6f} {:.6f}", call.kind, call.line, call.to[0], call.to[1], call.to[2]);
+  std::string text = fmt::format("{} {} {:.6f} {:.6f} {:.6f}", call.kind, call.line, call.to[0],
+                                 call.to[1], call.to[2]);
   if (call.kind == "ARC") {
-    text += fmt::format(" C {:.6f} {:.6f} {:.6f} plane {} turns {}",
-                        call.centre[0],
-                        call.centre[1],
-                        call.centre[2],
-                        call.plane,
-                        call.turns);
+    text += fmt::format(" C {:.6f} {:.6f} {:.6f} plane {} turns {}", call.centre[0], call.centre[1],
+                        call.centre[2], call.plane, call.turns);
   }
   if (call.kind == "ARC" || call.kind == "FEED") text += fmt::format(" F{}", call.feed_mm_per_min);
   return text;
@@ -265,18 +261,16 @@ std::optional<std::string> difference(const Answer& linuxcnc_said, const Answer&
   const std::size_t both = std::min(linuxcnc.calls.size(), here.calls.size());
   for (std::size_t i = 0; i < both; ++i) {
     if (same(linuxcnc.calls[i], here.calls[i])) continue;
-    return fmt::format(
-        "call {}: LinuxCNC says {}, here: {}", i, shown(linuxcnc.calls[i]), shown(here.calls[i]));
+    return fmt::format("call {}: LinuxCNC says {}, here: {}", i, shown(linuxcnc.calls[i]),
+                       shown(here.calls[i]));
   }
   if (!here.accepted || linuxcnc.calls.size() == here.calls.size()) return std::nullopt;
   const bool more = linuxcnc.calls.size() > both;
-  return fmt::format("{} goes on: {}",
-                     more ? "LinuxCNC" : "our interpreter",
+  return fmt::format("{} goes on: {}", more ? "LinuxCNC" : "our interpreter",
                      shown(more ? linuxcnc.calls[both] : here.calls[both]));
 }
 
-std::optional<std::string> unlisted_difference(const std::string& program,
-                                               const Answer& linuxcnc,
+std::optional<std::string> unlisted_difference(const std::string& program, const Answer& linuxcnc,
                                                const Answer& here) {
   if (linuxcnc.accepted && !here.accepted &&
       (here.problem == "unsupported_code" || here.problem == "unsupported_axis" ||

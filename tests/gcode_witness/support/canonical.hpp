@@ -52,8 +52,7 @@ std::optional<std::string> difference(const Answer& linuxcnc, const Answer& here
 /// The same for unreviewed programs: leaves out the differences listed in docs/gcode.md: codes that
 /// we reject as not supported, a loop or condition without its end, and cycles in a program without
 /// G98 and G99.
-std::optional<std::string> unlisted_difference(const std::string& program,
-                                               const Answer& linuxcnc,
+std::optional<std::string> unlisted_difference(const std::string& program, const Answer& linuxcnc,
                                                const Answer& here);
 
 }  // namespace chaintrue::witness

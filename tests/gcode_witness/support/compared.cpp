@@ -21,8 +21,7 @@ Answer limited(const std::string& program) {
 /// while [1] comes to its end there, though its last loop is endless).
 constexpr std::array<std::uint64_t, 1> kLinuxCncErrs = {1180};
 
-LanguageRun compare_language(std::uint64_t first_seed,
-                             std::uint64_t count,
+LanguageRun compare_language(std::uint64_t first_seed, std::uint64_t count,
                              std::size_t most_reported) {
   constexpr std::uint64_t kBatch = 500;
   LanguageRun run;

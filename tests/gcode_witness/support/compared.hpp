@@ -26,8 +26,7 @@ struct LanguageRun {
 Answer limited(const std::string& program);
 
 /// Seeds from the first on; runs LinuxCNC.
-LanguageRun compare_language(std::uint64_t first_seed,
-                             std::uint64_t count,
+LanguageRun compare_language(std::uint64_t first_seed, std::uint64_t count,
                              std::size_t most_reported);
 
 }  // namespace chaintrue::witness

@@ -59,14 +59,13 @@ std::unique_ptr<const Shop> random_shop(std::uint64_t seed, model::ControllerKin
                                 with_controller({}, kind));
 }
 
-std::optional<std::string> Shop::compensate(const std::string& program,
-                                            double tolerance_mm,
+std::optional<std::string> Shop::compensate(const std::string& program, double tolerance_mm,
                                             std::string& why) const {
   gcode::CompensateOptions options;
   options.tolerance_mm = tolerance_mm;
   std::string output;
-  gcode::Compensator compensator(
-      corrector_, options, [&](std::string_view bytes) { output += bytes; });
+  gcode::Compensator compensator(corrector_, options,
+                                 [&](std::string_view bytes) { output += bytes; });
   auto source = gcode::LineSource::from_text(program);
   const auto outcome = compensator.run(source, {});
   if (!outcome) {
@@ -80,8 +79,7 @@ std::optional<std::string> Shop::compensate(const std::string& program,
   return output;
 }
 
-std::string Shop::verify(const std::string& original,
-                         const std::string& output,
+std::string Shop::verify(const std::string& original, const std::string& output,
                          double tolerance_mm) const {
   auto a = gcode::LineSource::from_text(original);
   auto b = gcode::LineSource::from_text(output);
@@ -92,20 +90,20 @@ std::string Shop::verify(const std::string& original,
   return summary->holds() ? "" : summary->fault;
 }
 
-double Shop::distance_mm(const std::string& original,
-                         const std::string& output,
+double Shop::distance_mm(const std::string& original, const std::string& output,
                          double most_mm) const {
   const auto intended = follower::joined(follower::program_path(original));
-  const auto tool = follower::tool_path(workshop_, follower::joined(follower::program_path(output)));
+  const auto tool =
+      follower::tool_path(workshop_, follower::joined(follower::program_path(output)));
   if (!tool) return most_mm;
   return follower::path_distance_mm(intended, *tool, most_mm);
 }
 
-bool Shop::follows(const std::string& original,
-                   const std::string& output,
+bool Shop::follows(const std::string& original, const std::string& output,
                    double distance_mm) const {
   const auto intended = follower::joined(follower::program_path(original));
-  const auto tool = follower::tool_path(workshop_, follower::joined(follower::program_path(output)));
+  const auto tool =
+      follower::tool_path(workshop_, follower::joined(follower::program_path(output)));
   return tool && follower::within(intended, *tool, distance_mm);
 }
 

@@ -23,12 +23,10 @@ class Shop {
   Shop& operator=(const Shop&) = delete;
 
   /// The output; empty if it was rejected, with the reason.
-  std::optional<std::string> compensate(const std::string& program,
-                                        double tolerance_mm,
+  std::optional<std::string> compensate(const std::string& program, double tolerance_mm,
                                         std::string& why) const;
   /// verify's verdict: empty if the file passes, otherwise its message.
-  std::string verify(const std::string& original,
-                     const std::string& output,
+  std::string verify(const std::string& original, const std::string& output,
                      double tolerance_mm) const;
   /// The independent check: distance of the simulated tool from the intended path, up to most_mm.
   /// \throws std::runtime_error if the follower does not understand one of the files.

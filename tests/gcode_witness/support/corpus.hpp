@@ -12,8 +12,8 @@
 namespace chaintrue::witness {
 
 /// The record files of programs written by hand; `generated` and `follower` are random programs.
-inline constexpr std::array kThemes = {
-    "arcs", "cycles", "expressions", "flow", "hazards", "machine", "motion", "offsets", "words"};
+inline constexpr std::array kThemes = {"arcs",    "cycles", "expressions", "flow", "hazards",
+                                       "machine", "motion", "offsets",     "words"};
 
 struct StoredProgram {
   std::string name;

@@ -18,10 +18,8 @@ namespace {
 
 using model::ControllerKind;
 
-constexpr std::array kKinds = {ControllerKind::ideal,
-                               ControllerKind::maslow_classic,
-                               ControllerKind::holey,
-                               ControllerKind::fluidnc_wallplotter};
+constexpr std::array kKinds = {ControllerKind::ideal, ControllerKind::maslow_classic,
+                               ControllerKind::holey, ControllerKind::fluidnc_wallplotter};
 
 /// The follower's own errors: its chords, its samples, and single precision's 6e-5 mm.
 constexpr double kOwnMm = follower::kChordMm + 1e-4;
@@ -126,8 +124,7 @@ class Trial {
   std::string same_verdicts(const std::string& output, const char* what) const {
     if (shop_.follows(program_, output, (1.0 + kBand) * tolerance_mm_ + kOwnMm)) return {};
     if (!shop_.verify(program_, output, tolerance_mm_).empty()) return {};
-    return fmt::format("verify holds the output {}, but the tool is {:.4f} mm off the path",
-                       what,
+    return fmt::format("verify holds the output {}, but the tool is {:.4f} mm off the path", what,
                        shop_.distance_mm(program_, output, 100.0));
   }
 
@@ -138,11 +135,8 @@ class Trial {
 };
 
 /// Empty if the program is compensated and judged correctly, or rejected.
-std::string judged(const Shop& shop,
-                   const std::string& program,
-                   double tolerance_mm,
-                   std::uint64_t seed,
-                   FollowRun& run) {
+std::string judged(const Shop& shop, const std::string& program, double tolerance_mm,
+                   std::uint64_t seed, FollowRun& run) {
   Random random(seed);
   try {
     return Trial(shop, program, tolerance_mm, random).run(run);
@@ -171,12 +165,8 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
     if (fault.empty()) continue;
     ++run.failed;
     if (run.failures.size() >= options.most_reported) continue;
-    run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\n{}",
-                                       seed,
-                                       shop->name(),
-                                       tolerance_mm,
-                                       fault,
-                                       program));
+    run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\n{}", seed,
+                                       shop->name(), tolerance_mm, fault, program));
   }
   return run;
 }

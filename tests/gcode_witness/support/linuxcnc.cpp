@@ -25,11 +25,7 @@ std::string root() {
 
 int run(const std::string& programs, const std::string& truth) {
   const std::string command = fmt::format("RS274_ROOT='{}' python3 '{}' < '{}' > '{}' 2> '{}.log'",
-                                          root(),
-                                          CHAINTRUE_LINUXCNC_MOVES,
-                                          programs,
-                                          truth,
-                                          truth);
+                                          root(), CHAINTRUE_LINUXCNC_MOVES, programs, truth, truth);
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -58,8 +54,7 @@ std::vector<Record> ask_linuxcnc(const std::vector<Record>& programs) {
   write_whole_file(scratch / "in", write_records(programs));
   const int code = run(scratch / "in", scratch / "out");
   if (code != 0) {
-    throw std::runtime_error(fmt::format("linuxcnc_moves.py ended with {}: {}",
-                                         code,
+    throw std::runtime_error(fmt::format("linuxcnc_moves.py ended with {}: {}", code,
                                          read_whole_file(scratch / "out.log")));
   }
   auto answers = read_records(read_whole_file(scratch / "out"));

@@ -26,7 +26,9 @@ struct Word {
   double value;
 };
 
-bool equal(double a, double b) { return std::fabs(a - b) <= kDigits * std::max(std::fabs(a), std::fabs(b)); }
+bool equal(double a, double b) {
+  return std::fabs(a - b) <= kDigits * std::max(std::fabs(a), std::fabs(b));
+}
 
 /// Small and large values, round and not.
 std::string some_value(Random& random, double most) {
@@ -79,7 +81,9 @@ class WordProgram {
       case 3:
         return add("G64", {{'P', some_value(random_, 5.0)}, {'Q', some_value(random_, 1.0)}});
       case 4:
-        return add(random_.any({"M67", "M68"}), {{'E', whole}, {'Q', (random_.one_in(3) ? "-" : "") + some_value(random_, 100.0)}});
+        return add(
+            random_.any({"M67", "M68"}),
+            {{'E', whole}, {'Q', (random_.one_in(3) ? "-" : "") + some_value(random_, 100.0)}});
       case 5:
         return add(random_.any({"M62", "M63", "M64", "M65"}), {{'P', whole}});
       case 6:
@@ -95,8 +99,8 @@ class WordProgram {
 
   void move() {
     const std::string feed = random_.one_in(2) ? "" : fmt::format(" F{}", some_feed());
-    text += fmt::format("G1 X{:.3f} Y{:.3f}{}\n",
-                        random_.between(-300.0, 300.0), random_.between(-200.0, 200.0), feed);
+    text += fmt::format("G1 X{:.3f} Y{:.3f}{}\n", random_.between(-300.0, 300.0),
+                        random_.between(-200.0, 200.0), feed);
   }
   /// A valid feed: zero is not allowed.
   std::string some_feed() {
@@ -122,7 +126,8 @@ class StrictRun {
       std::string objection;
       const auto line = follower::read_strictly(text, objection);
       if (!line) return fmt::format("'{}': {}", text, objection);
-      if (std::string fault = take(*line); !fault.empty()) return fmt::format("'{}': {}", text, fault);
+      if (std::string fault = take(*line); !fault.empty())
+        return fmt::format("'{}': {}", text, fault);
     }
     return moves_.size() == at_ ? "" : "our interpreter finds more moves than the strict reader";
   }
@@ -134,7 +139,8 @@ class StrictRun {
     for (const auto& [letter, value] : line.words) {
       if (letter == 'G' || letter == 'M') code = fmt::format("{}{}", letter, value);
       if (letter == 'S' || letter == 'T') words.push_back({std::string(1, letter), letter, value});
-      if (std::string("PQEHDLR").find(letter) != std::string::npos) words.push_back({code, letter, value});
+      if (std::string("PQEHDLR").find(letter) != std::string::npos)
+        words.push_back({code, letter, value});
       if (letter == 'F') state_['F'] = value;
     }
     if (code != "G0" && code != "G1") return {};
@@ -144,10 +150,13 @@ class StrictRun {
     if (at_ == moves_.size()) return "a move that our interpreter does not find";
     const Call& move = moves_[at_++];
     // Positions have three decimals.
-    const double off = std::hypot(move.to[0] - state_['X'], move.to[1] - state_['Y'], move.to[2] - state_['Z']);
+    const double off =
+        std::hypot(move.to[0] - state_['X'], move.to[1] - state_['Y'], move.to[2] - state_['Z']);
     const bool feed = code == "G0" || equal(move.feed_mm_per_min, state_['F']);
     const bool kind = move.kind == (code == "G0" ? "RAPID" : "FEED");
-    return off <= 1e-6 && feed && kind ? "" : "our interpreter finds another place, feed or kind of move";
+    return off <= 1e-6 && feed && kind
+               ? ""
+               : "our interpreter finds another place, feed or kind of move";
   }
 
   std::vector<Call> moves_;
@@ -156,7 +165,9 @@ class StrictRun {
 };
 
 std::string words_differ(const std::vector<Word>& expected, const std::vector<Word>& found) {
-  const auto shown = [](const Word& word) { return fmt::format("{} {}{}", word.code, word.letter, word.value); };
+  const auto shown = [](const Word& word) {
+    return fmt::format("{} {}{}", word.code, word.letter, word.value);
+  };
   for (std::size_t i = 0; i < std::max(expected.size(), found.size()); ++i) {
     if (i >= found.size()) return shown(expected[i]) + " is missing";
     if (i >= expected.size()) return shown(found[i]) + " is too much";
@@ -170,11 +181,8 @@ std::string words_differ(const std::vector<Word>& expected, const std::vector<Wo
 
 }  // namespace
 
-OutputRun compare_output(const std::string& fixtures,
-                         std::uint64_t first_seed,
-                         std::uint64_t count,
-                         bool ask,
-                         std::size_t most_reported) {
+OutputRun compare_output(const std::string& fixtures, std::uint64_t first_seed, std::uint64_t count,
+                         bool ask, std::size_t most_reported) {
   const auto shop = measured_shop(fixtures, model::ControllerKind::ideal);
   GeneratorOptions options;
   options.scope = Scope::path;

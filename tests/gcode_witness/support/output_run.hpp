@@ -22,10 +22,7 @@ struct OutputRun {
 ///   is read by the strict reader, line by line, with the same moves as our interpreter finds;
 ///   holds the words of the program, in order, with equal values;
 ///   and, where LinuxCNC is asked, is the same sequence of canonical calls to it as to ours.
-OutputRun compare_output(const std::string& fixtures,
-                         std::uint64_t first_seed,
-                         std::uint64_t count,
-                         bool ask,
-                         std::size_t most_reported);
+OutputRun compare_output(const std::string& fixtures, std::uint64_t first_seed, std::uint64_t count,
+                         bool ask, std::size_t most_reported);
 
 }  // namespace chaintrue::witness

@@ -31,7 +31,9 @@ void ProgramWriter::line(std::vector<std::string> words) {
   if (words.empty()) return;
   // Words may be in any order.
   if (random_.one_in(4))
-    std::swap(words.front(), words[static_cast<std::size_t>(random_.whole(0, static_cast<int>(words.size()) - 1))]);
+    std::swap(
+        words.front(),
+        words[static_cast<std::size_t>(random_.whole(0, static_cast<int>(words.size()) - 1))]);
   std::string result = random_.one_in(12) ? fmt::format("N{} ", random_.whole(1, 99999)) : "";
   if (random_.one_in(40)) result = "/" + result;
   const bool blanks = !random_.one_in(6);
@@ -79,9 +81,12 @@ std::string ProgramWriter::expression(double value, int places) {
     case 3:
       return fmt::format("[[{}] * COS[0]]", whole);
     case 4:
-      return fmt::format("[{} + 0 * {}]", whole, random_.any({"SIN[33]", "SQRT[2]", "EXP[1]", "LN[3]", "ATAN[1]/[-2]", "FUP[1.2]"}));
+      return fmt::format(
+          "[{} + 0 * {}]", whole,
+          random_.any({"SIN[33]", "SQRT[2]", "EXP[1]", "LN[3]", "ATAN[1]/[-2]", "FUP[1.2]"}));
     case 5:
-      return fmt::format("[{} + [3 {} 3] - {}]", whole, random_.any({"EQ", "GE", "LE", "AND", "OR"}), 1);
+      return fmt::format("[{} + [3 {} 3] - {}]", whole,
+                         random_.any({"EQ", "GE", "LE", "AND", "OR"}), 1);
     case 6:
       return value < 0.0 ? fmt::format("-ABS[{}]", whole) : fmt::format("ABS[-{}]", whole);
     default:
@@ -224,7 +229,8 @@ void ProgramWriter::dwell() {
 }
 
 void ProgramWriter::remark() {
-  plain(random_.any({"(a remark)", "; a remark", "(msg, look here)", "", "(one) (two)", "   ", "(debug, #1)"}));
+  plain(random_.any(
+      {"(a remark)", "; a remark", "(msg, look here)", "", "(one) (two)", "   ", "(debug, #1)"}));
 }
 
 void ProgramWriter::path_control() {
@@ -234,7 +240,8 @@ void ProgramWriter::path_control() {
 void ProgramWriter::assignment() {
   const int index = random_.whole(1, 20);
   const double value = random_.decimal(-50.0, 50.0, 2);
-  line({fmt::format("#{}={}", index, random_.one_in(2) ? expression(value, 2) : written(value, 2))});
+  line(
+      {fmt::format("#{}={}", index, random_.one_in(2) ? expression(value, 2) : written(value, 2))});
   if (random_.one_in(2)) return;
   if (options_.scope == Scope::language && random_.one_in(2)) {
     const std::string name = random_.any({"<depth>", "<_Width>", "<a b>"});
@@ -249,16 +256,19 @@ void ProgramWriter::assignment() {
 
 /// G10 L2 and L20, G54 to G59.3.
 void ProgramWriter::work_offset() {
-  static constexpr const char* kSystems[] = {
-      "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+  static constexpr const char* kSystems[] = {"G54", "G55",   "G56",   "G57",  "G58",
+                                             "G59", "G59.1", "G59.2", "G59.3"};
   const int system = random_.whole(1, 9);
   const bool from_here = options_.scope == Scope::language && random_.one_in(3) && !probed_;
-  std::vector<std::string> words = {"G10", from_here ? "L20" : "L2", fmt::format("P{}", random_.one_in(4) ? 0 : system)};
+  std::vector<std::string> words = {"G10", from_here ? "L20" : "L2",
+                                    fmt::format("P{}", random_.one_in(4) ? 0 : system)};
   for (const char letter : {'X', 'Y', 'Z'}) {
     if (random_.one_in(3)) continue;
-    words.push_back(length(letter, letter == 'Z' ? random_.between(-2.0, 2.0) : random_.between(-40.0, 40.0)));
+    words.push_back(
+        length(letter, letter == 'Z' ? random_.between(-2.0, 2.0) : random_.between(-40.0, 40.0)));
   }
-  if (!from_here && random_.one_in(3)) words.push_back(number('R', random_.decimal(-40.0, 40.0, 1), 1));
+  if (!from_here && random_.one_in(3))
+    words.push_back(number('R', random_.decimal(-40.0, 40.0, 1), 1));
   if (!random_.one_in(4)) line(std::move(words));
   if (!random_.one_in(3)) line({kSystems[system - 1]});
   go_somewhere();
@@ -296,8 +306,8 @@ void ProgramWriter::home() {
 }
 
 void ProgramWriter::override_or_output() {
-  plain(random_.any({"M48", "M49", "M50 P1", "M51 P0", "M52 P1", "M53 P0", "M62 P1", "M63 P0", "M64 P2",
-                     "M65 P2", "M67 E0 Q1.5", "M68 E1 Q0", "M0", "M1", "M60"}));
+  plain(random_.any({"M48", "M49", "M50 P1", "M51 P0", "M52 P1", "M53 P0", "M62 P1", "M63 P0",
+                     "M64 P2", "M65 P2", "M67 E0 Q1.5", "M68 E1 Q0", "M0", "M1", "M60"}));
   if (!random_.one_in(8)) return;
   plain("M61 Q3");
   go_somewhere();
@@ -311,7 +321,8 @@ std::string ProgramWriter::label() {
 void ProgramWriter::condition() {
   const std::string o = label();
   const std::string feed = inverse_time_ ? " F30" : "";
-  plain(fmt::format("{} if [#{} {} {}]", o, random_.whole(1, 20), random_.any({"GT", "LT", "EQ", "NE", "GE", "LE"}), random_.whole(-20, 20)));
+  plain(fmt::format("{} if [#{} {} {}]", o, random_.whole(1, 20),
+                    random_.any({"GT", "LT", "EQ", "NE", "GE", "LE"}), random_.whole(-20, 20)));
   plain("G90 G1 X5" + feed);
   if (random_.one_in(2)) plain(fmt::format("{} elseif [#{} AND 1]", o, random_.whole(1, 20)));
   plain("G1 Y7" + feed);
@@ -328,14 +339,17 @@ void ProgramWriter::loop() {
   switch (random_.whole(0, 2)) {
     case 0:
       plain(fmt::format("{} repeat [{}]", o, times));
-      plain(fmt::format("G91 G1 X{} Y[{} / 2]{}", random_.whole(-5, 5), random_.whole(-5, 5), feed));
+      plain(
+          fmt::format("G91 G1 X{} Y[{} / 2]{}", random_.whole(-5, 5), random_.whole(-5, 5), feed));
       plain(o + " endrepeat");
       break;
     case 1:
       plain("#30=0");
       plain(fmt::format("{} while [#30 LT {}]", o, times));
       plain("#30=[#30 + 1]");
-      if (random_.one_in(2)) plain(fmt::format("{0} if [#30 EQ 2]\n{1} {2}\n{0} endif", label(), o, random_.any({"break", "continue"})));
+      if (random_.one_in(2))
+        plain(fmt::format("{0} if [#30 EQ 2]\n{1} {2}\n{0} endif", label(), o,
+                          random_.any({"break", "continue"})));
       plain("G90 G1 X[#30 * 3]" + feed);
       plain(o + " endwhile");
       break;
@@ -359,7 +373,8 @@ void ProgramWriter::subroutine() {
   const int calls = random_.whole(0, 3);
   for (int i = 0; i < calls; ++i) {
     std::string call = o + " call";
-    for (int k = random_.whole(0, 3); k > 0; --k) call += fmt::format(" [{}]", random_.whole(-30, 30));
+    for (int k = random_.whole(0, 3); k > 0; --k)
+      call += fmt::format(" [{}]", random_.whole(-30, 30));
     plain(call);
     if (random_.one_in(2)) plain("G1 Z[#<_value> / 20]" + feed);
   }

@@ -31,14 +31,15 @@ void ProgramWriter::straight() {
     any = true;
   }
   if (!any) words.push_back(axis(0, to[0], place_[0]));
-  const double way = std::hypot(place_[0] - before[0], place_[1] - before[1], place_[2] - before[2]);
+  const double way =
+      std::hypot(place_[0] - before[0], place_[1] - before[1], place_[2] - before[2]);
   if (!rapid) add_feed(words, way);
   line(std::move(words));
 }
 
 /// From the current position about a centre in the plane; a negative sweep is clockwise.
-void ProgramWriter::arc_to(
-    double centre_first, double centre_second, double sweep, bool whole, int turns) {
+void ProgramWriter::arc_to(double centre_first, double centre_second, double sweep, bool whole,
+                           int turns) {
   const Plane plane = axes();
   const bool clockwise = sweep < 0.0;
   std::vector<std::string> words = motion(clockwise ? "G2" : "G3");
@@ -66,8 +67,7 @@ void ProgramWriter::arc_to(
     words.push_back(length("IJK"[plane.second], written_second, 4));
   if (turns > 1) words.push_back(fmt::format("P{}", turns));
   if (random_.one_in(3)) {
-    words.push_back(axis(plane.normal,
-                         place_[plane.normal] + random_.between(-4.0, 4.0),
+    words.push_back(axis(plane.normal, place_[plane.normal] + random_.between(-4.0, 4.0),
                          place_[plane.normal]));
   }
   add_feed(words, radius * (std::fabs(sweep) + kTurn * (turns - 1)));
@@ -82,10 +82,8 @@ void ProgramWriter::arc_by_centre() {
   const double towards = inward + random_.between(-1.0, 1.0);
   const double sweep = random_.one_in(5) ? 0.5 * kTurn : random_.between(0.02, 0.99) * kTurn;
   arc_to(place_[plane.first] + radius * std::cos(towards),
-         place_[plane.second] + radius * std::sin(towards),
-         random_.one_in(2) ? sweep : -sweep,
-         false,
-         random_.one_in(8) ? random_.whole(2, 3) : 1);
+         place_[plane.second] + radius * std::sin(towards), random_.one_in(2) ? sweep : -sweep,
+         false, random_.one_in(8) ? random_.whole(2, 3) : 1);
 }
 
 void ProgramWriter::whole_circle() {
@@ -93,10 +91,8 @@ void ProgramWriter::whole_circle() {
   const double radius = random_.between(0.2, 20.0);
   const double towards = random_.between(0.0, kTurn);
   arc_to(place_[plane.first] + radius * std::cos(towards),
-         place_[plane.second] + radius * std::sin(towards),
-         random_.one_in(2) ? kTurn : -kTurn,
-         true,
-         random_.one_in(4) ? random_.whole(2, 4) : 1);
+         place_[plane.second] + radius * std::sin(towards), random_.one_in(2) ? kTurn : -kTurn,
+         true, random_.one_in(4) ? random_.whole(2, 4) : 1);
 }
 
 void ProgramWriter::arc_by_radius() {
@@ -110,14 +106,14 @@ void ProgramWriter::arc_by_radius() {
     const double step = chord * (i == plane.first ? std::cos(towards) : std::sin(towards));
     words.push_back(axis(i, place_[i] + step, place_[i]));
   }
-  const double half = 0.5 * std::hypot(place_[0] - before[0], place_[1] - before[1], place_[2] - before[2]);
+  const double half =
+      0.5 * std::hypot(place_[0] - before[0], place_[1] - before[1], place_[2] - before[2]);
   const double radius = half * random_.between(1.02, 3.0) + 0.01;
   // The long arc of a large circle would leave the sheet.
   const bool is_long = radius < 60.0 && random_.one_in(4);
   words.push_back(length('R', is_long ? -radius : radius));
   if (random_.one_in(5)) {
-    words.push_back(axis(plane.normal,
-                         place_[plane.normal] + random_.between(-4.0, 4.0),
+    words.push_back(axis(plane.normal, place_[plane.normal] + random_.between(-4.0, 4.0),
                          place_[plane.normal]));
   }
   add_feed(words, 4.0 * half);
@@ -131,7 +127,8 @@ void ProgramWriter::cycle() {
   std::vector<std::string> kinds = {"G81", "G82", "G83", "G73", "G85", "G89"};
   // Cycles that stop the spindle have words that differ between NIST and LinuxCNC.
   if (spindle_on_ && options_.scope == Scope::language) kinds.emplace_back("G86");
-  const std::string kind = kinds[static_cast<std::size_t>(random_.whole(0, static_cast<int>(kinds.size()) - 1))];
+  const std::string kind =
+      kinds[static_cast<std::size_t>(random_.whole(0, static_cast<int>(kinds.size()) - 1))];
   if (random_.one_in(3)) line({random_.any({"G98", "G99"})});
   const bool again = random_.one_in(5);
   const int holes = random_.whole(1, 4);
@@ -151,7 +148,8 @@ void ProgramWriter::cycle() {
       words.push_back(length('R', incremental_ ? random_.between(-1.0, 1.0) : height));
     }
     if (i == 0) {
-      if (kind == "G82" || kind == "G86" || kind == "G89") words.push_back(number('P', random_.decimal(0.0, 1.0, 2), 2));
+      if (kind == "G82" || kind == "G86" || kind == "G89")
+        words.push_back(number('P', random_.decimal(0.0, 1.0, 2), 2));
       if (kind == "G83" || kind == "G73") words.push_back(length('Q', random_.between(0.4, 3.0)));
     }
     if (again) words.push_back(fmt::format("L{}", random_.whole(1, 3)));
@@ -192,7 +190,8 @@ void ProgramWriter::polar() {
 void ProgramWriter::probe() {
   if (inverse_time_) inverse_time();
   go_somewhere();
-  line({random_.any({"G38.2", "G38.3", "G38.4", "G38.5"}), axis(2, place_[2] + random_.between(2.0, 5.0), place_[2])});
+  line({random_.any({"G38.2", "G38.3", "G38.4", "G38.5"}),
+        axis(2, place_[2] + random_.between(2.0, 5.0), place_[2])});
   motion_.clear();
   probed_ = true;
   go_somewhere();

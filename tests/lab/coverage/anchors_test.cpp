@@ -29,8 +29,9 @@ TEST_P(AnchorCoverage, CoversAnchorsPlacesAndScatter) {
     ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence();
     anchors.add(anchors_error(*fit, set), fit->covariance_mm2);
     const FittedPlace& found = fit->places[17];
-    place.add(Eigen::Vector2d(found.at.x_mm - set.places[17].x_mm, found.at.y_mm - set.places[17].y_mm),
-              found.covariance_mm2);
+    place.add(
+        Eigen::Vector2d(found.at.x_mm - set.places[17].x_mm, found.at.y_mm - set.places[17].y_mm),
+        found.covariance_mm2);
     scatter.add(157.0 * std::pow(fit->residual_sigma_mm / 0.5, 2));
   }
   anchors.expect_unit();
@@ -38,10 +39,8 @@ TEST_P(AnchorCoverage, CoversAnchorsPlacesAndScatter) {
   scatter.expect_unit();
 }
 
-INSTANTIATE_TEST_SUITE_P(Lengths,
-                         AnchorCoverage,
-                         testing::Values(model::BeltLengths::belt,
-                                         model::BeltLengths::belt_and_arm,
+INSTANTIATE_TEST_SUITE_P(Lengths, AnchorCoverage,
+                         testing::Values(model::BeltLengths::belt, model::BeltLengths::belt_and_arm,
                                          model::BeltLengths::span),
                          [](const auto& tested) { return std::string(name(tested.param)); });
 

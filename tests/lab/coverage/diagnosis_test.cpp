@@ -45,10 +45,10 @@ TEST(PValues, AreUniformOnSoundBeltMachines) {
     spec.seed = 6000 + seed;
     DiagnosisOptions options = verdict_alone();
     options.seed = seed;
-    const auto a = analyse(
-        synthetic::simulate_belts(chaintrue::testing_support::stated(), chaintrue::testing_support::truth(), spec)
-            .value(),
-        options);
+    const auto a = analyse(synthetic::simulate_belts(chaintrue::testing_support::stated(),
+                                                     chaintrue::testing_support::truth(), spec)
+                               .value(),
+                           options);
     family_wise.push_back(a->family_wise_p);
     tail.add(a->family_wise_p < 0.01);
   }

@@ -52,7 +52,8 @@ TEST(HolesCoverage, CoversSpacingAndScales) {
   // The noise is estimated with 15 degrees of freedom besides.
   of_spacing.expect_unit(2.0 / 15.0);
   scales.expect_unit(2.0 / 15.0);
-  EXPECT_LT(std::sqrt(spacing2 / static_cast<double>(all.size())), 1.15) << "mm, as docs/holes.md states";
+  EXPECT_LT(std::sqrt(spacing2 / static_cast<double>(all.size())), 1.15)
+      << "mm, as docs/holes.md states";
 }
 
 TEST(HolesCoverage, BadDistancesAreFoundAndGoodOnesKept) {
@@ -64,7 +65,8 @@ TEST(HolesCoverage, BadDistancesAreFoundAndGoodOnesKept) {
     const auto fit = joint_fit(made->set);
     ASSERT_TRUE(fit) << "seed " << seed;
     const auto& distances = fit->distances.front().distances;
-    for (std::size_t k = 0; k < distances.size(); ++k) (k == bad ? found : lost).add(distances[k].rejected);
+    for (std::size_t k = 0; k < distances.size(); ++k)
+      (k == bad ? found : lost).add(distances[k].rejected);
   }
   found.expect_at_least(0.97);
   lost.expect_at_most(0.003);  // 0.0016 by chance, and some beside a bad one
@@ -94,7 +96,8 @@ TEST(HolesCoverage, PlansWithEdgesKeepTheirPromise) {
   error.expect_unit();
 }
 
-std::vector<sealed::Claim> named(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
+std::vector<sealed::Claim> named(const std::vector<model::AppliedEffect>& hidden,
+                                 std::uint64_t seed) {
   synthetic::HolesSpec spec;
   spec.draw_settings = true;
   spec.seed = seed;
@@ -120,12 +123,12 @@ TEST(HolesVerdicts, NameSingleCauses) {
         model::AppliedEffect{"side_pull", "", {{"force_n", 8.0}}},
         model::AppliedEffect{"chain_stretch", "", {{"compliance_per_n", 2e-5}}},
         model::AppliedEffect{"beam_flex", "", {{"flexibility_mm_per_n", 0.03}}},
-        model::AppliedEffect{"angular_kink", "left", {{"slope_mm_per_rad", 20.0}, {"knee_rad", 0.6}}}}) {
+        model::AppliedEffect{
+            "angular_kink", "left", {{"slope_mm_per_rad", 20.0}, {"knee_rad", 0.6}}}}) {
     SCOPED_TRACE(hidden.effect + hidden.side);
     Rate first, misnamed;
-    const auto means = [id = sealed::id_of(hidden.effect, hidden.side)](const sealed::Claim& claim) {
-      return claim.means(id);
-    };
+    const auto means = [id = sealed::id_of(hidden.effect, hidden.side)](
+                           const sealed::Claim& claim) { return claim.means(id); };
     for (const std::uint64_t seed : seeds(40)) {
       const auto causes = named({hidden}, seed);
       if (causes.empty()) continue;

@@ -32,8 +32,9 @@ TEST(DrawingCoverage, CoversSettingsAndAcceptsSoundOnes) {
         pens.emplace_back(pen->x_mm, pen->y_mm);
       }
       for (observation::DrawnMeasure& m : drawing.measures) {
-        m.value_mm = observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
-                     0.5 * random.normal();
+        m.value_mm =
+            observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm +
+            0.5 * random.normal();
       }
       return drawing;
     };

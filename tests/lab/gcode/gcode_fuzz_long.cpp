@@ -48,10 +48,7 @@ int main(int argc, char** argv) {
     fmt::print("seed {}, program {}: {}\n", seed, programs, wrong);
     return 1;
   }
-  fmt::print("seed {}: {} programs in {} s, the slowest took {:.2f} s; nothing wrong\n",
-             seed,
-             programs,
-             seconds,
-             slowest_s);
+  fmt::print("seed {}: {} programs in {} s, the slowest took {:.2f} s; nothing wrong\n", seed,
+             programs, seconds, slowest_s);
   return 0;
 }

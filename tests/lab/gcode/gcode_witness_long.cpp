@@ -40,8 +40,8 @@ int run_follow(std::uint64_t count, std::uint64_t seed, std::uint64_t share, std
 
 int run_language(std::uint64_t count, std::uint64_t seed) {
   const LanguageRun run = compare_language(seed, count, kMostReported);
-  fmt::print("{} programs from seed {}: {} accepted by LinuxCNC, {} differ\n",
-             count, seed, run.accepted, run.different);
+  fmt::print("{} programs from seed {}: {} accepted by LinuxCNC, {} differ\n", count, seed,
+             run.accepted, run.different);
   return reported(run.failures, run.different);
 }
 
@@ -71,7 +71,8 @@ int run(const std::vector<std::string>& words) {
   };
   const std::string what = words.empty() ? "" : words[0];
   if (what == "generate" && words.size() == 2) return generate(words[1]);
-  if (what == "follow") return run_follow(number(1, 10000), number(2, 1), number(3, 0), number(4, 1));
+  if (what == "follow")
+    return run_follow(number(1, 10000), number(2, 1), number(3, 0), number(4, 1));
   if (what == "language" || what == "output") {
     if (!linuxcnc_missing().empty()) {
       fmt::print("{}\n", linuxcnc_missing());

@@ -48,8 +48,8 @@ TEST(HiddenBelts, StiffBeltsMatchTheKinematics) {
     const auto lengths = model::lengths_at(machine_of(stiff), {x, y}).value();
     held[0] = lengths.tl;
     held[1] = lengths.tr;
-    const SledAtRest rest = rest_on_belts(
-        stiff, {false, false, true, true}, held, {0.0, 0.0, 150.0, 150.0}, x, y - 1.0);
+    const SledAtRest rest = rest_on_belts(stiff, {false, false, true, true}, held,
+                                          {0.0, 0.0, 150.0, 150.0}, x, y - 1.0);
     // 600 N at most over 1e8 N, of 3 m: 0.02 mm of belt, and twice that of place.
     EXPECT_NEAR(rest.x_mm, x, 0.05);
     EXPECT_NEAR(rest.y_mm, y, 0.05);
@@ -63,8 +63,8 @@ TEST(HiddenBelts, ForcesBalanceAndSlackBeltsCarryNothing) {
   FourLengths held{};
   held[0] = 1500.0;
   held[1] = 1900.0;
-  const SledAtRest rest = rest_on_belts(
-      elastic, {false, false, true, true}, held, {0.0, 0.0, 150.0, 150.0}, 1300.0, 1000.0);
+  const SledAtRest rest = rest_on_belts(elastic, {false, false, true, true}, held,
+                                        {0.0, 0.0, 150.0, 150.0}, 1300.0, 1000.0);
   double fx = 0.0;
   double fy = -elastic.weight_n;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -82,8 +82,8 @@ TEST(HiddenBelts, ForcesBalanceAndSlackBeltsCarryNothing) {
   // A lower belt that holds with 100 mm too much is slack.
   FourLengths loose = rest.length_mm;
   loose[2] += 100.0;
-  const SledAtRest slack = rest_on_belts(
-      elastic, {false, false, false, true}, loose, {0.0, 0.0, 0.0, 150.0}, rest.x_mm, rest.y_mm);
+  const SledAtRest slack = rest_on_belts(elastic, {false, false, false, true}, loose,
+                                         {0.0, 0.0, 0.0, 150.0}, rest.x_mm, rest.y_mm);
   EXPECT_EQ(slack.tension_n[2], 0.0);
 }
 

@@ -109,7 +109,7 @@ TEST(Draw, PatternsAndCausesFollowTheRules) {
         EXPECT_GE(p.delta, 6.0);
         EXPECT_EQ(set.answer.hidden.size(), mix == Mix::alongside       ? 1U
                                             : mix == Mix::two_alongside ? 2U
-                                                                     : 0U);
+                                                                        : 0U);
         if (mix == Mix::near) {
           EXPECT_GE(p.rho, 0.9);
           EXPECT_LE(p.rho, 0.98);

@@ -61,8 +61,7 @@ std::vector<model::Visit> visits_of_product(const std::vector<Visit>& visits) {
 
 // The product's readings of the same visits.
 std::vector<model::ChainLengths> product(const std::vector<Visit>& visits,
-                                         const std::vector<Hidden>& effects,
-                                         bool over_top) {
+                                         const std::vector<Hidden>& effects, bool over_top) {
   model::Machine machine;
   machine.feed = over_top ? model::Feed::over_top : model::Feed::off_bottom;
   for (const Hidden& h : effects) machine.effects.push_back(applied(h));
@@ -71,8 +70,7 @@ std::vector<model::ChainLengths> product(const std::vector<Visit>& visits,
   return read.value_or(std::vector<model::ChainLengths>(visits.size()));
 }
 
-void expect_same(const std::vector<Visit>& visits,
-                 const std::vector<Hidden>& effects,
+void expect_same(const std::vector<Visit>& visits, const std::vector<Hidden>& effects,
                  bool over_top) {
   TrueMachine m = drum();
   m.over_top = over_top;
@@ -160,7 +158,8 @@ TEST(Strength, EqualsDelta) {
       const Hidden one[] = {{c.cause, where, values[0], values.size() > 1 ? values[1] : 0.0}};
       const auto ours = yardstick->signature(one);
       ASSERT_TRUE(ours);
-      const auto side = std::ranges::find(effect.sides, word(where), [](auto s) { return name(s); });
+      const auto side =
+          std::ranges::find(effect.sides, word(where), [](auto s) { return name(s); });
       const double delta = table.strength(effect, *side).signal_to_noise;
       // Differences over 1 mm against exact derivatives, and a weight rounded in its fourth digit.
       EXPECT_NEAR(ours->norm(), delta, 1e-3 * delta + 1e-4);

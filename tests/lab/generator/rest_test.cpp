@@ -94,10 +94,8 @@ TEST_P(Tables, TheErrorFallsWithTheSquareOfThePieces) {
   EXPECT_NEAR(whole / parted, 16.0, 0.5);  // the next order is 1e-4 of it; rounding 1e-9 of 1e-6
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference,
-                         Tables,
-                         testing::Values("table_over_top.json",
-                                         "table_off_bottom.json",
+INSTANTIATE_TEST_SUITE_P(Reference, Tables,
+                         testing::Values("table_over_top.json", "table_off_bottom.json",
                                          "table_over_top_rho0.json"));
 
 // Averaged over all directions a polygon is as wide as the circle of its circumference (Cauchy), so

@@ -74,22 +74,13 @@ Json telling_value(const std::string& pointer, const Json& value) {
 class KeyMatrix : public testing::Test {
  protected:
   KeyMatrix() { inputs::add_telling_files(folder_); }
-  void expect_every_key_acts(const std::string& kind,
-                             const Json& file,
+  void expect_every_key_acts(const std::string& kind, const Json& file,
                              const std::vector<Reader>& readers) const {
-    static const std::vector<std::string> kEchoes = {"content_hash",
-                                                     "name",
-                                                     "noise",
-                                                     "tape",
-                                                     "hole_sigma_mm",
-                                                     "noise_dof",
-                                                     "seed",
-                                                     "machine",
-                                                     "extended_machine",
-                                                     "sheet",
-                                                     "readings",
-                                                     "distances",
-                                                     "made_by"};
+    static const std::vector<std::string> kEchoes = {
+        "content_hash",     "name",      "noise",    "tape",
+        "hole_sigma_mm",    "noise_dof", "seed",     "machine",
+        "extended_machine", "sheet",     "readings", "distances",
+        "made_by"};
     std::vector<std::string> pointers;
     gather(file, "", pointers);
     for (const Reader& reader : readers) {
@@ -137,8 +128,7 @@ TEST_F(KeyMatrix, CoversGrids) {
   grid.erase("machine");
   grid["machine_file"] = "classic.json";
   expect_every_key_acts(
-      "grid",
-      grid,
+      "grid", grid,
       {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
        {"diagnose", "diagnose FILE --json"},
        {"check", "check @map.json FILE --json"}});
@@ -154,8 +144,7 @@ TEST_F(KeyMatrix, CoversHoles) {
   holes.erase("machine");
   holes["machine_file"] = "classic.json";
   expect_every_key_acts(
-      "holes",
-      holes,
+      "holes", holes,
       {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
        {"diagnose", "diagnose FILE --json"},
        {"check", "check @map.json FILE --json"}});
@@ -167,8 +156,7 @@ TEST_F(KeyMatrix, CoversBelts) {
       {"from": "bl", "to": "br", "distance_mm": 2953, "sigma_mm": 1.5},
       {"from": {"x_mm": -500, "y_mm": 0}, "to": {"x_mm": 500, "y_mm": 0}, "distance_mm": 1001.4}])");
   belts["firmware_fit"] = {{"rms_mm", 0.4}, {"max_mm", 1.2}};
-  expect_every_key_acts("belts",
-                        belts,
+  expect_every_key_acts("belts", belts,
                         {{"fit",
                           "fit FILE -o anchors.json; export maslow4 anchors.json; "
                           "query anchors.json 0 0 300 200"},
@@ -180,8 +168,7 @@ TEST_F(KeyMatrix, CoversBelts) {
 TEST_F(KeyMatrix, CoversMachines) {
   Json machine = Json::parse(folder_.text_of("every.json"));
   expect_every_key_acts(
-      "machine",
-      machine,
+      "machine", machine,
       {{"simulate",
         "simulate --machine FILE --grid 4x3 --length-noise-mm 0.1 --draw-settings --seed 2"}});
 }

@@ -10,7 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void gather_numbers(const Json& json, const std::vector<std::string>& echoes, std::string& numbers) {
+void gather_numbers(const Json& json, const std::vector<std::string>& echoes,
+                    std::string& numbers) {
   if (json.is_number() || json.is_boolean() || json.is_null()) numbers += json.dump() + " ";
   if (json.is_array()) {
     for (const auto& element : json) gather_numbers(element, echoes, numbers);
@@ -18,8 +19,7 @@ void gather_numbers(const Json& json, const std::vector<std::string>& echoes, st
   }
   if (!json.is_object()) return;
   for (const auto& [key, value] : json.items()) {
-    if (std::ranges::find(echoes, key) == echoes.end())
-      gather_numbers(value, echoes, numbers);
+    if (std::ranges::find(echoes, key) == echoes.end()) gather_numbers(value, echoes, numbers);
   }
 }
 

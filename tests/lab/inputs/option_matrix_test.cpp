@@ -23,7 +23,8 @@ std::string line_of(const Invocation& use, const Telling& telling) {
   if (!instead.empty() && instead.front() != '@') return instead;
   std::string line = use.line;
   if (instead.empty()) return line;
-  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc", "@plotter_true.nc"}) line = replaced(line, own, instead);
+  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc", "@plotter_true.nc"})
+    line = replaced(line, own, instead);
   return line;
 }
 
@@ -35,7 +36,8 @@ std::string without(const std::string& line, const std::string& option) {
 }
 
 /// The fault of a cell; empty if none.
-std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran& base, const std::string& option) {
+std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran& base,
+                     const std::string& option) {
   const Telling* telling = telling_of(use.verb, option, use.name);
   if (telling == nullptr) return "has no telling value in this test";
   const std::string line = without(line_of(use, *telling), option) + " " + telling->words;
@@ -48,8 +50,8 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
     if (ran.err.empty()) return "is refused without a sentence";
   }
   static const std::vector<std::string> kEchoes = {
-      "content_hash", "name", "tape", "hole_sigma_mm", "noise_dof", "seed", "tolerance_mm", "machine",
-      "extended_machine", "made_by"};
+      "content_hash", "name",         "tape",    "hole_sigma_mm",    "noise_dof",
+      "seed",         "tolerance_mm", "machine", "extended_machine", "made_by"};
   switch (telling->shows) {
     case Shows::in_numbers: {
       std::vector<std::string> echoes = kEchoes;
@@ -68,9 +70,10 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
       return before.out == ran.out && before.files == ran.files ? "changes nothing: " + line : "";
     case Shows::as_file:
       return std::ranges::none_of(ran.files,
-                          [&](const auto& file) {
-                            return !before.files.contains(file.first) && !file.second.empty();
-                          })
+                                  [&](const auto& file) {
+                                    return !before.files.contains(file.first) &&
+                                           !file.second.empty();
+                                  })
                  ? "writes no file: " + line + "\n" + ran.err
                  : "";
     case Shows::in_words:
@@ -91,7 +94,8 @@ bool writes_a_file(const Telling* telling) {
 }
 
 /// What is wrong with the options that write a file: one run is given all of them, and one file of each is expected.
-std::string fault_of_files(const InputFolder& folder, const Invocation& use, const Ran& plain, const std::vector<std::string>& options) {
+std::string fault_of_files(const InputFolder& folder, const Invocation& use, const Ran& plain,
+                           const std::vector<std::string>& options) {
   std::string line = use.line;
   std::vector<std::pair<std::string, std::string>> expected;
   for (const std::string& option : options) {
@@ -146,12 +150,12 @@ std::vector<std::string> verbs_of_measurements() {
   return {all.begin(), all.end()};
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    OfEveryVerb, EveryOption, testing::ValuesIn(verbs_of_measurements()), [](const auto& verb) {
-      std::string name = verb.param;
-      std::replace(name.begin(), name.end(), ' ', '_');
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(OfEveryVerb, EveryOption, testing::ValuesIn(verbs_of_measurements()),
+                         [](const auto& verb) {
+                           std::string name = verb.param;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace chaintrue::inputs

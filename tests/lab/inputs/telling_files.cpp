@@ -70,7 +70,8 @@ void add_telling_files(InputFolder& folder) {
   folder.add_made_files("lab/inputs/made_files.tsv");
   const std::string fixtures = CHAINTRUE_FIXTURES "/";
   folder.write("every.json", testing_support::read_text(fixtures + "good/machine_every_key.json"));
-  folder.write("half_turn.json", testing_support::read_text(fixtures + "effects/second_harmonic.json"));
+  folder.write("half_turn.json",
+               testing_support::read_text(fixtures + "effects/second_harmonic.json"));
   folder.write("grid_in_inches.csv", as_inches(folder.text_of("grid.csv")));
   folder.write("few_in_inches.csv", as_inches(folder.text_of("few.csv")));
   folder.write("commanded.csv", as_commands(folder.text_of("grid.csv")));
@@ -92,30 +93,32 @@ void add_telling_files(InputFolder& folder) {
   folder.write("moved_plotter.json", replaced(folder.text_of("wide_plotter.json"), "3000", "2996"));
   folder.write("narrow_holes.json", narrow_holes(folder.text_of("holes.json")));
   // Links with a slightly long pitch, instead of the catalogue's cause.
-  Json own = Json::parse(testing_support::read_text(fixtures + "effects/catalogue/own_chain_pitch_error.json"));
+  Json own = Json::parse(
+      testing_support::read_text(fixtures + "effects/catalogue/own_chain_pitch_error.json"));
   own["parameters"][0]["upper"] = 0.001;
   folder.write("own.json", own.dump(1));
   // Belts that are pulled behind each move, where the log alone is read as of an upright frame.
-  folder.write("flat.yaml",
-               replaced(folder.text_of("maslow.yaml"), "Maslow_vertical: true",
-                        "Maslow_vertical: false"));
+  folder.write("flat.yaml", replaced(folder.text_of("maslow.yaml"), "Maslow_vertical: true",
+                                     "Maslow_vertical: false"));
   folder.write("few_marks.csv", "x_mm,y_mm\n-800,-300\n10,-280\n820,290\n30,20\n");
   folder.write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
   // Long rapids bend; two digits do not show that a short rapid was made slow, three do; a feed may be off by a
   // hundredth.
   folder.write("rapid.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y-550\nG1 X0 Y0\nM2\n");
   // A plotter's lines bend most in the middle of its sheet's upper edge.
-  folder.write("across.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y550\nG1 X1100 Y549\nM2\n");
-  folder.write("tiny.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.06 Y0\nG1 X100.06 Y100\nM2\n");
-  folder.write("short.nc",
-        "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.06 Y0 F300\nG1 X100.06 Y100 F600\nM2\n");
+  folder.write("across.nc",
+               "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y550\nG1 X1100 Y549\nM2\n");
+  folder.write("tiny.nc",
+               "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.06 Y0\nG1 X100.06 Y100\nM2\n");
+  folder.write(
+      "short.nc",
+      "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.06 Y0 F300\nG1 X100.06 Y100 F600\nM2\n");
   folder.write("slow.nc", replaced(folder.text_of("simple.nc"), "F600", "F588"));
   // Explaining line 6 requires leaving the loop first.
   folder.write("loop.nc",
-        "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
-        "G1 X0 Y0\nM2\n");
+               "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
+               "G1 X0 Y0\nM2\n");
   folder.write("home.nc", "G21 G90 G17\nF600\nG1 X200 Y100\nG28\nG1 X0 Y0\nM2\n");
 }
-
 
 }  // namespace chaintrue::inputs

@@ -6,8 +6,7 @@
 namespace chaintrue::inputs {
 
 std::string then_of(const Invocation& call) {
-  if (call.verb != "fit" || (call.facts & (cli::facts::grid | cli::facts::holes)) == 0)
-    return "";
+  if (call.verb != "fit" || (call.facts & (cli::facts::grid | cli::facts::holes)) == 0) return "";
   if ((call.facts & cli::facts::direct) != 0)
     return "query map.json 0 0 700 300 350 -150 1200 600 --json; query map.json 0 0 --frame bed";
   return "query map.json 0 0 700 300 1200 600 -1180 590 --json";
@@ -30,7 +29,8 @@ std::vector<Telling> tellings() {
 
 }  // namespace
 
-const Telling* telling_of(const std::string& verb, const std::string& option, const std::string& use) {
+const Telling* telling_of(const std::string& verb, const std::string& option,
+                          const std::string& use) {
   static const std::vector<Telling> all = tellings();
   const Telling* general = nullptr;
   for (const Telling& one : all) {

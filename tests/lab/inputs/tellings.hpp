@@ -30,8 +30,7 @@ struct Telling {
   std::string instead;
 };
 /// The one for this invocation if there is one; null if the option has none.
-const Telling* telling_of(const std::string& verb,
-                          const std::string& option,
+const Telling* telling_of(const std::string& verb, const std::string& option,
                           const std::string& use);
 
 /// Commands that extract the numbers from this call's output, if the file repeats the input.

@@ -60,10 +60,15 @@ TEST(Facts, FollowFromTheClaims) {
   EXPECT_THAT(outcomes[2].facts, ElementsAre());
   EXPECT_THAT(outcomes[3].facts, ElementsAre("others_stay"));
   EXPECT_THAT(outcomes[4].facts, ElementsAre("none_denied_90"));
-  EXPECT_THAT(outcomes[5].facts, ElementsAre("none_denied_90", "none_denied_60", "named", "others_stay"));
+  EXPECT_THAT(outcomes[5].facts,
+              ElementsAre("none_denied_90", "none_denied_60", "named", "others_stay"));
   const std::string table = sealed::rates_table(outcomes, sealed::rows_of("planted"));
-  EXPECT_THAT(table, testing::HasSubstr("| planted, strength 7 and more | named | 100.0 | 1 of 1 |"));
-  EXPECT_THAT(table, testing::HasSubstr("| nothing planted | no claim at 90 % that the whole scan denies | 66.7 | 2 of 3 |"));
+  EXPECT_THAT(table,
+              testing::HasSubstr("| planted, strength 7 and more | named | 100.0 | 1 of 1 |"));
+  EXPECT_THAT(
+      table,
+      testing::HasSubstr(
+          "| nothing planted | no claim at 90 % that the whole scan denies | 66.7 | 2 of 3 |"));
   // By bins of a tenth: 4.70 claimed and 2 right, 0.85 and 0, 0.19 and 1, 1.30 and 1; "open" is neither.
   const sealed::Calibration calibration = claims_held_against(outcomes, references);
   EXPECT_EQ(calibration.claims(), 9);
@@ -98,8 +103,8 @@ TEST_F(RealScan, ACauseChangesItsOwnReadings) {
       const auto& before = *draw.plain.points[i].lengths;
       const auto& after = *draw.planted.points[i].lengths;
       // Each equilibrium is found to 1e-10 mm.
-      EXPECT_NEAR(
-          left ? before.right_mm : before.left_mm, left ? after.right_mm : after.left_mm, 1e-8);
+      EXPECT_NEAR(left ? before.right_mm : before.left_mm, left ? after.right_mm : after.left_mm,
+                  1e-8);
     }
   }
 }

@@ -53,8 +53,8 @@ TEST(SmoothField, TreatsWhiteFieldsAsNoise) {
   const NoiseLevel small{0.1, 0.3}, large{std::hypot(0.1, kFieldMm), 0.3};
   const CalibratedSession session = calibrate({}, exact_marks(), small);
   const CalibratedSession noisier = calibrate({}, exact_marks(), large);
-  const double with_field = strength_given(
-      {1.0, kFieldMm, kFieldMm, 0.0, 1.0}, session, signature_of(session, kEccentric));
+  const double with_field = strength_given({1.0, kFieldMm, kFieldMm, 0.0, 1.0}, session,
+                                           signature_of(session, kEccentric));
   const double with_noise = strength_given(kNone, noisier, signature_of(noisier, kEccentric));
   // The two sessions are calibrated separately, to a thousandth of a millimetre.
   EXPECT_NEAR(with_field, with_noise, 1e-4 * with_noise);

@@ -58,11 +58,10 @@ TEST_F(RealFrames, BeltsStretchAndNothingElseIsNamed) {
     double rms_mm;        ///< the required figure, with the stretch
     double predicted_mm;  ///< the required figure, or no worse than anchors alone
   };
-  for (const Frame& frame : {Frame{"concrete_anchors.txt", 1, 0.46, 1.37},
-                             Frame{"frame_rebuilt.txt", 1, 0.55, 1.25},
-                             Frame{"mini_frame.txt", 1, 0.55, 1.81},
-                             Frame{"ten_runs_1_to_5.txt", 1, 0.73, 1.60},
-                             Frame{"ten_runs_1_to_5.txt", 5, 0.73, 1.60}}) {
+  for (const Frame& frame :
+       {Frame{"concrete_anchors.txt", 1, 0.46, 1.37}, Frame{"frame_rebuilt.txt", 1, 0.55, 1.25},
+        Frame{"mini_frame.txt", 1, 0.55, 1.81}, Frame{"ten_runs_1_to_5.txt", 1, 0.73, 1.60},
+        Frame{"ten_runs_1_to_5.txt", 5, 0.73, 1.60}}) {
     SCOPED_TRACE(frame.file);
     const MeasuredBelts belts = read(frame.file, frame.run);
     const auto found = diagnosis::diagnose(belts).value();

@@ -50,7 +50,8 @@ void expect_like_the_whole(const std::string& text) {
     if (!found) return;
     SCOPED_TRACE(damaged);
     for (const auto& named : found->causes) {
-      const std::string cause = fmt::format("{}:{}", named.cause.effect->id, name(named.cause.side));
+      const std::string cause =
+          fmt::format("{}:{}", named.cause.effect->id, name(named.cause.side));
       EXPECT_TRUE(named.probability < kSure || probability[cause] >= kUnlikely) << found->sentence;
     }
     for (std::size_t i = 0; i < found->belts->coordinates.size(); ++i) {
@@ -70,7 +71,8 @@ TEST(DamagedLogs, AreDiagnosedLikeTheWholeOrRefused) {
   const std::filesystem::path folder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4";
   for (const char* file : {"concrete_anchors.txt", "frame_rebuilt.txt", "mini_frame.txt"}) {
     SCOPED_TRACE(file);
-    if (std::filesystem::exists(folder / file)) expect_like_the_whole(files::read_whole_file(folder / file));
+    if (std::filesystem::exists(folder / file))
+      expect_like_the_whole(files::read_whole_file(folder / file));
   }
 }
 

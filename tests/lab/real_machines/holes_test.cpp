@@ -43,15 +43,9 @@ std::vector<Line> read_lines() {
 }
 
 /// Commanded positions of H0 to H8.
-constexpr model::BedPoint kHoles[] = {{0.0, 0.0},
-                                      {-965.2, 355.6},
-                                      {-965.2, -355.6},
-                                      {965.2, -355.6},
-                                      {965.2, 355.6},
-                                      {-304.8, 304.8},
-                                      {-304.8, -304.8},
-                                      {304.8, -304.8},
-                                      {304.8, 304.8}};
+constexpr model::BedPoint kHoles[] = {{0.0, 0.0},       {-965.2, 355.6}, {-965.2, -355.6},
+                                      {965.2, -355.6},  {965.2, 355.6},  {-304.8, 304.8},
+                                      {-304.8, -304.8}, {304.8, -304.8}, {304.8, 304.8}};
 
 /// The machine as described by its owner: sets a to d on one frame (spacing measured with the
 /// chains as 3602.6 mm, good to 5 mm), e on the next; a ring kit of 138.14 mm, whose settings

@@ -44,10 +44,10 @@ class RealScans : public testing::Test {
     files::OpticalOptions options;
     options.order = assumed;
     // The settings in force were not recorded, so the tolerances' purpose is unknown.
-    options.machine = files::read(files::parse_groundcontrol,
-                                  data_ / "holey" / "groundcontrol_2018-09-01b.ini",
-                                  files::Tolerances::unexplained)
-                          .machine;
+    options.machine =
+        files::read(files::parse_groundcontrol, data_ / "holey" / "groundcontrol_2018-09-01b.ini",
+                    files::Tolerances::unexplained)
+            .machine;
     options.pitch_mm = kPitchMm;
     MeasuredGrid grid =
         files::read(files::parse_optical, data_ / "optical_grid" / file, options).grid;

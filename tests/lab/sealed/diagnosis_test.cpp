@@ -42,7 +42,9 @@ Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
   return grid::diagnosis::diagnose(grid, verdict_alone()).value();
 }
 
-std::string first_name(const Diagnosis& found) { return named_causes(found).front().members.front(); }
+std::string first_name(const Diagnosis& found) {
+  return named_causes(found).front().members.front();
+}
 
 bool names_any(const Diagnosis& found) { return Trial(found).names_something(); }
 
@@ -103,9 +105,8 @@ TEST(Metamorphic, AddingTheNamedCauseRemovesIt) {
 }
 
 bool not_testable(const Diagnosis& found, const std::string& effect) {
-  return std::ranges::any_of(found.not_testable, [&](const auto& no) {
-    return no.cause.effect->id == effect;
-  });
+  return std::ranges::any_of(found.not_testable,
+                             [&](const auto& no) { return no.cause.effect->id == effect; });
 }
 
 // 1 mm on the wheel's radius: motors and zeros absorb all of it except a delta of 1.
@@ -116,9 +117,8 @@ TEST(Traps, EffectsTheSettingsAbsorbAreBoundedNotNamed) {
     ASSERT_LT(set.answer.delta.front(), 1.5);
     const Diagnosis found = diagnosed(read(set));
     EXPECT_EQ(found.verdict, Verdict::nothing_found) << found.sentence;
-    const auto bound = std::ranges::find_if(found.bounds, [](const auto& b) {
-      return b.cause.effect->id == "sprocket_radius";
-    });
+    const auto bound = std::ranges::find_if(
+        found.bounds, [](const auto& b) { return b.cause.effect->id == "sprocket_radius"; });
     if (bound != found.bounds.end()) {
       EXPECT_GT(bound->upper_95, 1.0);
     } else {

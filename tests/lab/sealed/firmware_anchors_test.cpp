@@ -17,7 +17,8 @@ std::vector<Spans> exact_spans() {
   for (const double x : {700.0, 1100.0, 1500.0, 1900.0, 2300.0}) {
     for (const double y : {500.0, 850.0, 1200.0, 1550.0}) {
       Spans& own = spans.emplace_back();
-      for (std::size_t j = 0; j < 4; ++j) own[j] = std::hypot(x - kAnchors[j][0], y - kAnchors[j][1]);
+      for (std::size_t j = 0; j < 4; ++j)
+        own[j] = std::hypot(x - kAnchors[j][0], y - kAnchors[j][1]);
     }
   }
   return spans;

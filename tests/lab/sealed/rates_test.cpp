@@ -30,7 +30,8 @@ TEST(Binomial, TailsAreTheirSums) {
   EXPECT_EQ(probability_of_at_least(6, 5, 0.3), 0.0);
   EXPECT_EQ(probability_of_at_least(1, 5, 0.0), 0.0);
   EXPECT_EQ(probability_of_at_least(5, 5, 1.0), 1.0);
-  EXPECT_NEAR(probability_of_at_least(100, 100, 0.01) / 1e-200, 1.0, 1e-9);  // the exponential of 460 times 1e-13
+  EXPECT_NEAR(probability_of_at_least(100, 100, 0.01) / 1e-200, 1.0,
+              1e-9);  // the exponential of 460 times 1e-13
   EXPECT_THROW((void)probability_of_at_least(1, 5, 1.1), std::invalid_argument);
 }
 
@@ -75,7 +76,8 @@ TEST(Outcomes, LinesRoundTrip) {
   EXPECT_EQ(outcome.hidden.size(), 2u);
   EXPECT_TRUE(outcome.has("all") && outcome.has("is_several_causes"));
   EXPECT_FALSE(outcome.has("al"));
-  for (const std::string& line : {kLine, std::string("nothing 1100000 28 0.00 - failed - -"), kLine + " mm=0.25,n=3"})
+  for (const std::string& line :
+       {kLine, std::string("nothing 1100000 28 0.00 - failed - -"), kLine + " mm=0.25,n=3"})
     EXPECT_EQ(line_of(parse_outcome(line)), line);
 }
 
@@ -129,7 +131,8 @@ TEST(Rates, EachRowIsOfAKindOfTheList) {
 }
 
 TEST(Rates, TheFrozenTableIsOfTheFrozenOutcomes) {
-  const std::string folder = CHAINTRUE_FIXTURES "/sealed/", text = testing_support::read_text(folder + "outcomes.txt");
+  const std::string folder = CHAINTRUE_FIXTURES "/sealed/",
+                    text = testing_support::read_text(folder + "outcomes.txt");
   const std::vector<Outcome> frozen = parse_outcomes(text);
   EXPECT_EQ(text_of(sorted(frozen)), text);
   EXPECT_EQ(rates_table(frozen), testing_support::read_text(folder + "rates.md"));
@@ -150,7 +153,8 @@ std::vector<Outcome> with_names(int sets, int named, int from = 0) {
 
 TEST(Compared, NetsGainsAgainstLosses) {
   const Comparison moved = compare(with_names(300, 6, 0), with_names(300, 6, 3));
-  const auto row = std::ranges::find(moved.rows, "no cause named", [](const auto& own) { return own.row.right_is; });
+  const auto row = std::ranges::find(moved.rows, "no cause named",
+                                     [](const auto& own) { return own.row.right_is; });
   EXPECT_EQ(row->lost, 3);
   EXPECT_EQ(row->gained, 3);
   EXPECT_EQ(row->both, 291);
@@ -182,7 +186,8 @@ TEST(Compared, ASetThatFailsIsLost) {
 }
 
 TEST(Rates, ContradictWhatIsAskedBeyondChance) {
-  const std::vector<RateRow> asked = {{"nothing", "no cause named", "nothing", {"no_name"}, 0.0, 1e9, {}, 0.99}};
+  const std::vector<RateRow> asked = {
+      {"nothing", "no cause named", "nothing", {"no_name"}, 0.0, 1e9, {}, 0.99}};
   EXPECT_EQ(missed(with_names(100, 4), asked), "");  // by chance twice in a hundred runs
   EXPECT_THAT(missed(with_names(100, 10), asked), HasSubstr("90 of 100, 99.0 % asked"));
 }

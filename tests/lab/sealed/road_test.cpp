@@ -34,10 +34,7 @@ struct Road {
   double own_mm() const { return map_errors(set, own.fit.map)->true_rms_mm; }
 };
 
-Road road_of(std::vector<Hidden> hidden,
-             int points,
-             std::uint64_t seed,
-             bool accept_class = false,
+Road road_of(std::vector<Hidden> hidden, int points, std::uint64_t seed, bool accept_class = false,
              generator::Order order = generator::Order::random) {
   generator::Recipe recipe;
   recipe.points = points;
@@ -48,8 +45,7 @@ Road road_of(std::vector<Hidden> hidden,
   const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
   grid::diagnosis::CausesFitOptions options;
   options.accept_class = accept_class;
-  return {std::move(set),
-          grid::joint_fit(measured).value(),
+  return {std::move(set), grid::joint_fit(measured).value(),
           grid::diagnosis::fit_with_causes(measured, options).value()};
 }
 

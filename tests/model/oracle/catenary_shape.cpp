@@ -23,10 +23,7 @@ double tension_integral(const CatenaryLoad& load, const ChainMaterial& material)
 CatenaryPoint catenary_point(const CatenaryLoad& load, const ChainMaterial& material, double s_mm) {
   const CatenaryLoad part{load.horizontal_n, load.vertical_n, s_mm};
   const CatenaryExtent e = catenary_extent(part, material);
-  return {e.u_mm,
-          e.y_mm,
-          e.tb_n,
-          std::atan2(e.vb_n, load.horizontal_n),
+  return {e.u_mm, e.y_mm, e.tb_n, std::atan2(e.vb_n, load.horizontal_n),
           s_mm + material.compliance_per_n * tension_integral(part, material)};
 }
 

@@ -13,13 +13,13 @@ void raise(const char* name, const Arguments&... arguments) {
 }
 
 py::tuple fields_of(const grid::files::InputProblem& problem) {
-  return py::make_tuple(
-      problem.file, problem.place, problem.value, problem.expected, problem.message());
+  return py::make_tuple(problem.file, problem.place, problem.value, problem.expected,
+                        problem.message());
 }
 
 py::tuple fields_of(const gcode::Problem& problem) {
-  return py::make_tuple(
-      problem.place.line, problem.place.column, gcode::name(problem.name), problem.sentence);
+  return py::make_tuple(problem.place.line, problem.place.column, gcode::name(problem.name),
+                        problem.sentence);
 }
 
 py::list list_of(const auto& problems) {

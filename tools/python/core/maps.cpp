@@ -44,11 +44,8 @@ py::dict query(const grid::LengthMap& map, const Rows& points) {
     tool[i] = answer->tool_sigma_mm.value_or(kNone);
   }
   return py::dict("names"_a = std::vector<std::string>(names.begin(), names.end()),
-                  "lengths"_a = lengths,
-                  "sigma"_a = sigma,
-                  "tool_sigma"_a = tool,
-                  "status"_a = status,
-                  "why"_a = why);
+                  "lengths"_a = lengths, "sigma"_a = sigma, "tool_sigma"_a = tool,
+                  "status"_a = status, "why"_a = why);
 }
 
 Rows inverse(const grid::LengthMap& map, const Rows& lengths) {
@@ -63,8 +60,7 @@ Rows inverse(const grid::LengthMap& map, const Rows& lengths) {
 grid::BeltMap belt_map(const FittedAnchors& anchors) {
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
     throw cli::Failed(
-        "the anchors",
-        "no_anchors_in_force",
+        "the anchors", "no_anchors_in_force",
         "These anchors were fitted to belts without the anchors in force, which define "
         "the origin of commands.");
   }
@@ -86,8 +82,8 @@ class Answering {
   auto ask(Ask asked, const Rows& pairs, bool bed) const {
     if (belts_) return asked(*belts_, pairs);
     if (bed && map_->machine() == nullptr)
-      throw cli::Failed(
-          "the map", "no_machine", "A map without a machine knows only the frame of its marks.");
+      throw cli::Failed("the map", "no_machine",
+                        "A map without a machine knows only the frame of its marks.");
     return asked(grid::MapInFrame(*map_, bed ? grid::MapFrame::bed : grid::MapFrame::marks), pairs);
   }
 
@@ -113,10 +109,8 @@ void add_maps(py::module_& module) {
       .def(py::init<const std::string&>())
       .def("sentence", &Answering::sentence)
       .def("machine", &Answering::machine)
-      .def("query",
-           [](const Answering& map, const Rows& points, bool bed) {
-             return map.ask(query, points, bed);
-           })
+      .def("query", [](const Answering& map, const Rows& points,
+                       bool bed) { return map.ask(query, points, bed); })
       .def("inverse", [](const Answering& map, const Rows& lengths, bool bed) {
         return map.ask(inverse, lengths, bed);
       });

@@ -25,11 +25,8 @@ namespace {
 
 /// The text as this program writes it, and its warnings. `machine` is the text of a machine that
 /// replaces the file's, or empty.
-py::tuple parse(const std::string& kind,
-                const std::string& text,
-                const std::string& file,
-                const std::string& machine,
-                bool few) {
+py::tuple parse(const std::string& kind, const std::string& text, const std::string& file,
+                const std::string& machine, bool few) {
   const auto answer = [](const std::string& written, const std::vector<files::Warning>& warnings) {
     std::vector<std::string> sentences;
     for (const files::Warning& warning : warnings) sentences.push_back(warning.message());
@@ -62,9 +59,7 @@ py::tuple parse(const std::string& kind,
 }
 
 /// As above for a file, with the files that were read for it.
-py::tuple read(const std::string& kind,
-               const std::string& path,
-               const std::string& machine,
+py::tuple read(const std::string& kind, const std::string& path, const std::string& machine,
                bool few) {
   files::forget_sources();
   const py::tuple found =
@@ -84,9 +79,8 @@ void add_measured(py::module_& module) {
   module.def("write", [](const std::string& path, const std::string& text) {
     files::write_whole_file(path, text);
   });
-  module.def("format_version", [](const std::string& file_type) {
-    return files::format_of(file_type)->version;
-  });
+  module.def("format_version",
+             [](const std::string& file_type) { return files::format_of(file_type)->version; });
 }
 
 }  // namespace chaintrue::python

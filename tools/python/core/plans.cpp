@@ -53,11 +53,8 @@ py::dict plan_after(const std::string& diagnosis, const Texts& texts) {
   std::vector<std::pair<double, double>> marks;
   for (const cli::FollowUpPlace& place : cli::follow_up_places(found))
     marks.emplace_back(place.mark.x_mm, place.mark.y_mm);
-  return py::dict("marks"_a = marks,
-                  "table"_a = plan->csv,
-                  "sheet"_a = plan->json,
-                  "page"_a = plan->list,
-                  "drawing"_a = plan->drawing);
+  return py::dict("marks"_a = marks, "table"_a = plan->csv, "sheet"_a = plan->json,
+                  "page"_a = plan->list, "drawing"_a = plan->drawing);
 }
 
 }  // namespace

@@ -40,9 +40,7 @@ constexpr Card kCards[] = {{"belt_stretch", false, false, 0.002, 0.006, false},
 /// The last two are asked for by name alone: the frozen sets are drawn from the others.
 constexpr std::size_t kDrawnCards = std::size(kCards) - 2;
 
-std::vector<std::array<double, 2>> raster(const BeltFrame& frame,
-                                          int columns,
-                                          int rows,
+std::vector<std::array<double, 2>> raster(const BeltFrame& frame, int columns, int rows,
                                           Dice& dice) {
   const double width = frame.anchors[3][0];
   const double height = 0.5 * (frame.anchors[0][1] + frame.anchors[1][1]);
@@ -72,8 +70,7 @@ BeltFrame drawn_frame(Dice& dice) {
 
 /// Every anchor gives along its belt in proportion to the belt's tension: the pulled ones by the
 /// secret's size at the frame's own pull.
-void let_anchors_give(const BeltSession& session,
-                      double give_mm_per_n,
+void let_anchors_give(const BeltSession& session, double give_mm_per_n,
                       std::vector<FourLengths>& read) {
   for (std::size_t n = 0; n < read.size(); ++n) {
     const auto& [x, y] = session.commands[n];
@@ -92,10 +89,8 @@ void let_anchors_give(const BeltSession& session,
 
 /// Readings of all four without noise, each belt in the true frame of its visit, starting with this
 /// visit; motors pull `times` as hard as in the frame.
-std::vector<FourLengths> readings(const BeltFrame& frame,
-                                  const BeltSecret& secret,
-                                  const std::vector<std::array<double, 2>>& commands,
-                                  int visit = 0,
+std::vector<FourLengths> readings(const BeltFrame& frame, const BeltSecret& secret,
+                                  const std::vector<std::array<double, 2>>& commands, int visit = 0,
                                   double times = 1.0) {
   BeltSession session{frame, commands};
   session.frame.pull_n *= times;
@@ -193,10 +188,8 @@ std::vector<Rival> rivals_of(const BeltFrame& frame,
 
 /// Adds a law to the readings, and chooses the noise that gives it its strength: in units of this, beyond what
 /// anchors and any one cause explain. \throws std::runtime_error if 500 draws find no noise of 0.1 to 1 mm.
-void add_law(const BeltRecipe& recipe,
-             const std::vector<std::array<double, 2>>& commands,
-             Dice& dice,
-             BeltDraw& draw) {
+void add_law(const BeltRecipe& recipe, const std::vector<std::array<double, 2>>& commands,
+             Dice& dice, BeltDraw& draw) {
   constexpr int kDraws = 500;
   const std::vector<FourLengths> plain = readings(draw.frame, BeltSecret{}, commands);
   const AnchorProjection projection(draw.frame, commands);
@@ -269,8 +262,8 @@ BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
   draw.pulls.assign(draw.lengths_mm.size(), recipe.pulls.front());
   for (std::size_t pass = 1; pass < recipe.pulls.size(); ++pass) {
     const double times = recipe.pulls[pass] / recipe.pulls.front();
-    for (const FourLengths& read : readings(
-             draw.frame, draw.secret, commands, static_cast<int>(draw.lengths_mm.size()), times)) {
+    for (const FourLengths& read : readings(draw.frame, draw.secret, commands,
+                                            static_cast<int>(draw.lengths_mm.size()), times)) {
       draw.lengths_mm.push_back(read);
       draw.pulls.push_back(recipe.pulls[pass]);
     }

@@ -13,10 +13,8 @@ constexpr double kTurnMm = 43.975;
 
 }  // namespace
 
-Site site_of(const BeltFrame& frame,
-                    std::size_t belt,
-                    const std::array<double, 2>& place,
-                    double length_mm) {
+Site site_of(const BeltFrame& frame, std::size_t belt, const std::array<double, 2>& place,
+             double length_mm) {
   const auto& anchor = frame.anchors[belt];
   Site site{{place[0], place[1]}, {}, {}};
   site.angle_rad[belt] = std::atan2(std::abs(place[1] - anchor[1]), std::abs(place[0] - anchor[0]));
@@ -24,8 +22,7 @@ Site site_of(const BeltFrame& frame,
   return site;
 }
 
-HiddenLaw drawn_belt_law(LawFamily family,
-                         const std::vector<std::array<double, 2>>& places,
+HiddenLaw drawn_belt_law(LawFamily family, const std::vector<std::array<double, 2>>& places,
                          Dice& dice) {
   HiddenLaw law;
   law.family = family;
@@ -35,9 +32,8 @@ HiddenLaw drawn_belt_law(LawFamily family,
   const bool along_y = family == LawFamily::slope_from_y;
   const std::size_t axis = along_y ? 1 : 0;
   const auto [low, high] =
-      std::minmax_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
-        return a[axis] < b[axis];
-      });
+      std::minmax_element(places.begin(), places.end(),
+                          [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
   // In the middle three fifths of what was measured.
   law.place = (*low)[axis] + dice.uniform(0.2, 0.8) * ((*high)[axis] - (*low)[axis]);
   switch (family) {

@@ -38,12 +38,8 @@ double tension(const BeltFrame& frame, double slant, double unstretched) {
   return frame.stiffness_n * std::max(0.0, slant / unstretched - 1.0);
 }
 
-Force force_at(const BeltFrame& frame,
-               const std::array<bool, 4>& is_pulled,
-               const FourLengths& held_mm,
-               const FourLengths& pulls_n,
-               double x,
-               double y) {
+Force force_at(const BeltFrame& frame, const std::array<bool, 4>& is_pulled,
+               const FourLengths& held_mm, const FourLengths& pulls_n, double x, double y) {
   Force force{0.0, -frame.weight_n};
   for (std::size_t i = 0; i < 4; ++i) {
     const Spring s = spring_to(frame, i, x, y);
@@ -56,11 +52,8 @@ Force force_at(const BeltFrame& frame,
 
 }  // namespace
 
-SledAtRest rest_on_belts(const BeltFrame& frame,
-                         const std::array<bool, 4>& is_pulled,
-                         const FourLengths& held_mm,
-                         const FourLengths& pulls_n,
-                         double near_x_mm,
+SledAtRest rest_on_belts(const BeltFrame& frame, const std::array<bool, 4>& is_pulled,
+                         const FourLengths& held_mm, const FourLengths& pulls_n, double near_x_mm,
                          double near_y_mm) {
   SledAtRest rest{near_x_mm, near_y_mm, {}, {}, 0.0};
   const auto force = [&](double x, double y) {

@@ -42,11 +42,8 @@ struct SledAtRest {
 /// `held_mm` are unstretched lengths of the two that hold (the others are ignored), `pulls_n` of the
 /// two that are pulled. Starts from a nearby position. \throws std::runtime_error if it does not
 /// converge.
-SledAtRest rest_on_belts(const BeltFrame& frame,
-                         const std::array<bool, 4>& is_pulled,
-                         const FourLengths& held_mm,
-                         const FourLengths& pulls_n,
-                         double near_x_mm,
+SledAtRest rest_on_belts(const BeltFrame& frame, const std::array<bool, 4>& is_pulled,
+                         const FourLengths& held_mm, const FourLengths& pulls_n, double near_x_mm,
                          double near_y_mm);
 
 /// A session: the upper two hold, the lower two are pulled, with a relative variation `pull_noise`

@@ -74,9 +74,7 @@ std::optional<SizedEffect> sized(const Yardstick& yardstick, Hidden effect, doub
 }
 
 // Whole links: any of the pairs with a delta in range, with equal probability.
-std::optional<SizedEffect> whole_links(const Yardstick& yardstick,
-                                       Hidden effect,
-                                       Range range,
+std::optional<SizedEffect> whole_links(const Yardstick& yardstick, Hidden effect, Range range,
                                        Dice& dice) {
   std::vector<SizedEffect> fitting;
   const int last = yardstick.visits().back().number;
@@ -102,9 +100,7 @@ std::optional<SizedEffect> whole_links(const Yardstick& yardstick,
 }
 
 // Side and place are drawn again up to 30 times before the effect is dropped.
-std::optional<SizedEffect> draw_effect(const Yardstick& yardstick,
-                                       Cause cause,
-                                       Range range,
+std::optional<SizedEffect> draw_effect(const Yardstick& yardstick, Cause cause, Range range,
                                        Dice& dice) {
   const CauseCard& c = card(cause);
   for (int n = 0; n < 30; ++n) {
@@ -138,8 +134,8 @@ std::optional<SizedEffect> draw_effect(const Yardstick& yardstick,
 }
 
 // Effects that are not collinear, each with its own strength.
-std::vector<SizedEffect> draw_effects(
-    const Yardstick& yardstick, const Recipe& recipe, std::size_t count, Range range, Dice& dice) {
+std::vector<SizedEffect> draw_effects(const Yardstick& yardstick, const Recipe& recipe,
+                                      std::size_t count, Range range, Dice& dice) {
   for (int n = 0; n < 300; ++n) {
     std::vector<SizedEffect> chosen;
     while (chosen.size() < count) {
@@ -217,8 +213,7 @@ std::vector<Visit> true_visits(const std::vector<PlannedVisit>& planned, Dice& d
 std::vector<HiddenMachine::Note> written_down(const Recipe& recipe,
                                               const std::vector<Visit>& visits,
                                               const std::vector<Lengths>& exact,
-                                              const std::vector<Hidden>& hidden,
-                                              NoiseLevel noise,
+                                              const std::vector<Hidden>& hidden, NoiseLevel noise,
                                               Dice& dice) {
   (void)dice.uniform();  // keeps the frozen sets as they are
   const auto draw = [&] { return recipe.kind == Mix::heavy ? dice.heavy_tailed() : dice.normal(); };
@@ -318,8 +313,8 @@ TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
   return m;
 }
 
-std::optional<SizedEffect> draw_sized_effect(
-    const Yardstick& yardstick, Cause cause, double least_delta, double most_delta, Dice& dice) {
+std::optional<SizedEffect> draw_sized_effect(const Yardstick& yardstick, Cause cause,
+                                             double least_delta, double most_delta, Dice& dice) {
   return draw_effect(yardstick, cause, {least_delta, most_delta}, dice);
 }
 
@@ -359,7 +354,8 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
     answer.separable = is_separable(*yardstick, effects.front());
   }
   HiddenMachine machine(stated, truth, answer.hidden);
-  if (recipe.kind == Mix::unlisted) machine.suffers(draw_unlisted(*yardstick, answer.left_over_delta, effect_dice));
+  if (recipe.kind == Mix::unlisted)
+    machine.suffers(draw_unlisted(*yardstick, answer.left_over_delta, effect_dice));
   if (has_pattern(recipe.kind)) {
     Dice pattern_dice(seed, "pattern");
     answer.pattern = draw_pattern(*yardstick, rules_of(recipe), signatures, pattern_dice);

@@ -159,8 +159,8 @@ struct SizedEffect {
 };
 /// Side, place and size of a cause for a session, its strength log-uniform between the two; empty if no
 /// size within its bounds has such a strength.
-std::optional<SizedEffect> draw_sized_effect(
-    const Yardstick& yardstick, Cause cause, double least_delta, double most_delta, Dice& dice);
+std::optional<SizedEffect> draw_sized_effect(const Yardstick& yardstick, Cause cause,
+                                             double least_delta, double most_delta, Dice& dice);
 
 /// Same recipe and seed, same bytes. \throws std::runtime_error if no effect fits the recipe.
 SealedSet draw_set(const Recipe& recipe, std::uint64_t seed);

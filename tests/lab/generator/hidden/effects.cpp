@@ -8,7 +8,6 @@
 namespace chaintrue::generator {
 namespace {
 
-
 std::array<CauseCard, kCauses> make_cards() {
   using enum Nature;
   using enum Place;
@@ -126,8 +125,7 @@ Vec2 place_of(Vec2 written_mark, std::span<const Hidden> effects) {
   return place;
 }
 
-std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
-                                       std::span<const Visit> visits,
+std::optional<std::vector<Rest>> rests(const TrueMachine& machine, std::span<const Visit> visits,
                                        const std::vector<Rest>* near) {
   std::vector<Rest> all;
   all.reserve(visits.size());
@@ -141,10 +139,8 @@ std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
   return all;
 }
 
-std::vector<Lengths> readings(const TrueMachine& machine,
-                              std::span<const Hidden> effects,
-                              std::span<const Visit> visits,
-                              const std::vector<Rest>& at_rest) {
+std::vector<Lengths> readings(const TrueMachine& machine, std::span<const Hidden> effects,
+                              std::span<const Visit> visits, const std::vector<Rest>& at_rest) {
   const double turn_mm = machine.teeth * machine.pitch_mm;
   std::vector<Lengths> all(visits.size());
   for (std::size_t chain = 0; chain < 2; ++chain) {

@@ -92,14 +92,11 @@ Vec2 place_of(Vec2 written_mark, std::span<const Hidden> effects);
 
 /// The equilibrium at every visit; empty if one cannot be reached. `near` are equilibria of
 /// neighbours.
-std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
-                                       std::span<const Visit> visits,
+std::optional<std::vector<Rest>> rests(const TrueMachine& machine, std::span<const Visit> visits,
                                        const std::vector<Rest>* near = nullptr);
 /// Readings of a session with known equilibria (with every machine effect on). The visits are in
 /// increasing order of their numbers.
-std::vector<Lengths> readings(const TrueMachine& machine,
-                              std::span<const Hidden> effects,
-                              std::span<const Visit> visits,
-                              const std::vector<Rest>& at_rest);
+std::vector<Lengths> readings(const TrueMachine& machine, std::span<const Hidden> effects,
+                              std::span<const Visit> visits, const std::vector<Rest>& at_rest);
 
 }  // namespace chaintrue::generator

@@ -27,34 +27,17 @@ std::string grid_text(const WrittenGrid& g) {
  "noise": {{"length_mm": {:.6g}, "position_mm": {:.6g}, "dof": {}}},
  "points": [
 )",
-                 m.axis[0].x,
-                 m.axis[0].y,
-                 m.axis[1].x,
-                 m.axis[1].y,
-                 m.teeth,
-                 m.pitch_mm,
-                 m.over_top ? "over_top" : "off_bottom",
-                 m.ring_radius_mm,
-                 m.chain_mass_kg_per_m,
-                 m.compliance_per_n,
-                 m.chain_zero_mm[0],
-                 m.chain_zero_mm[1],
-                 m.sled_mass_kg,
-                 m.tilt_from_vertical_deg,
-                 g.sigmas.motor_mm,
-                 g.sigmas.zero_mm,
-                 g.stated_noise.length_mm,
-                 g.stated_noise.position_mm,
-                 g.dof);
+                 m.axis[0].x, m.axis[0].y, m.axis[1].x, m.axis[1].y, m.teeth, m.pitch_mm,
+                 m.over_top ? "over_top" : "off_bottom", m.ring_radius_mm, m.chain_mass_kg_per_m,
+                 m.compliance_per_n, m.chain_zero_mm[0], m.chain_zero_mm[1], m.sled_mass_kg,
+                 m.tilt_from_vertical_deg, g.sigmas.motor_mm, g.sigmas.zero_mm,
+                 g.stated_noise.length_mm, g.stated_noise.position_mm, g.dof);
   for (std::size_t i = 0; i < g.notes.size(); ++i) {
     const HiddenMachine::Note& n = g.notes[i];
-    fmt::format_to(out,
-                   R"(  {{"x_mm": {:.4f}, "y_mm": {:.4f}, "left_mm": {:.4f}, "right_mm": {:.4f}, "order": {})",
-                   n.mark.x,
-                   n.mark.y,
-                   n.lengths[0],
-                   n.lengths[1],
-                   n.number);
+    fmt::format_to(
+        out,
+        R"(  {{"x_mm": {:.4f}, "y_mm": {:.4f}, "left_mm": {:.4f}, "right_mm": {:.4f}, "order": {})",
+        n.mark.x, n.mark.y, n.lengths[0], n.lengths[1], n.number);
     text += i + 1 < g.notes.size() ? "},\n" : "}\n";
   }
   text += " ]}\n";

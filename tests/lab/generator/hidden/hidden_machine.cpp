@@ -54,8 +54,7 @@ std::optional<HiddenMachine::Note> HiddenMachine::measure(Vec2 mark, NoiseLevel 
 }
 
 std::optional<HiddenMachine::Reading> HiddenMachine::read(std::string_view what,
-                                                          std::string_view side,
-                                                          Dice& dice) const {
+                                                          std::string_view side, Dice& dice) const {
   const TrueMachine with = altered(truth_, hidden_);
   const auto noisy = [&](double value, double sigma) {
     return Reading{value + sigma * dice.normal(), sigma};

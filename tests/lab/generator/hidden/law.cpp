@@ -88,28 +88,17 @@ void draw_waves(HiddenLaw& law, Dice& dice) {
     const double other =
         law.family == LawFamily::matern_field ? longer * dice.normal() : dice.normal() / law.extent;
     const double along = law.family == LawFamily::matern_field ? longer * dice.normal() : longer;
-    law.waves.push_back({c * along - s * other,
-                         s * along + c * other,
+    law.waves.push_back({c * along - s * other, s * along + c * other,
                          dice.uniform(-std::numbers::pi, std::numbers::pi),
                          std::sqrt(2.0 / kWavesOfField)});
   }
 }
 
 std::string_view word(LawFamily family) {
-  constexpr std::string_view kWords[] = {"step_along_x",
-                                         "step_along_y",
-                                         "slope_from_x",
-                                         "slope_from_y",
-                                         "slope_oblique",
-                                         "ripple_of_length",
-                                         "ripple_of_angle",
-                                         "ripple_along_x",
-                                         "drop_at_edge",
-                                         "product_of_two",
-                                         "gaussian_field",
-                                         "matern_field",
-                                         "stretched_field",
-                                         "uneven_field"};
+  constexpr std::string_view kWords[] = {
+      "step_along_x",     "step_along_y",    "slope_from_x",    "slope_from_y", "slope_oblique",
+      "ripple_of_length", "ripple_of_angle", "ripple_along_x",  "drop_at_edge", "product_of_two",
+      "gaussian_field",   "matern_field",    "stretched_field", "uneven_field"};
   return kWords[static_cast<std::size_t>(family)];
 }
 

@@ -53,8 +53,7 @@ class OracleUnknowns {
   std::vector<Hidden> given_;
 };
 
-std::optional<Eigen::VectorXd> residual(const Fitted& fitted,
-                                        const TrueMachine& stated,
+std::optional<Eigen::VectorXd> residual(const Fitted& fitted, const TrueMachine& stated,
                                         const Record& record,
                                         const std::vector<std::array<double, 4>>& slopes) {
   std::vector<Vec2> marks;
@@ -107,8 +106,7 @@ std::optional<std::vector<Lengths>> Fitted::predict(std::span<const Vec2> marks,
   return readings(with, effects, visits, *at_rest);
 }
 
-std::optional<Fitted> fit_given(const HiddenMachine& machine,
-                                std::span<const Hidden> given,
+std::optional<Fitted> fit_given(const HiddenMachine& machine, std::span<const Hidden> given,
                                 const Record& record) {
   const auto yardstick =
       Yardstick::make(machine.truth(), machine.visits(), record.noise, record.sigmas);

@@ -30,8 +30,7 @@ struct Fitted {
                                               std::span<const int> numbers) const;
 };
 
-std::optional<Fitted> fit_given(const HiddenMachine& machine,
-                                std::span<const Hidden> given,
+std::optional<Fitted> fit_given(const HiddenMachine& machine, std::span<const Hidden> given,
                                 const Record& record);
 
 }  // namespace chaintrue::generator

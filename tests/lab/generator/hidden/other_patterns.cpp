@@ -44,7 +44,8 @@ Field draw_fold(Dice& dice) {
   turned.centre = {dice.uniform(-900.0, 900.0), dice.uniform(-420.0, 420.0)};
   // Oblique: at least 8 degrees from either axis.
   const auto quarter = static_cast<double>(dice.below(4));
-  turned.direction_rad = 0.5 * std::numbers::pi * (quarter + dice.uniform(8.0, 82.0) / 90.0) - std::numbers::pi;
+  turned.direction_rad =
+      0.5 * std::numbers::pi * (quarter + dice.uniform(8.0, 82.0) / 90.0) - std::numbers::pi;
   const double radius = dice.log_uniform(10.0, 120.0);
   // -1 would be a plane without a fold.
   const bool both_sides = dice.sign() > 0.0;
@@ -84,7 +85,8 @@ Field draw_angle_function(Dice& dice) {
   scale_to_one(values);
   return [=](const Site& site) {
     const std::size_t last = values.size() - 1;
-    const double share = (site.angle_rad[chain] - kLeastAngleRad) / (kMostAngleRad - kLeastAngleRad);
+    const double share =
+        (site.angle_rad[chain] - kLeastAngleRad) / (kMostAngleRad - kLeastAngleRad);
     const double along = std::clamp(share, 0.0, 1.0) * static_cast<double>(last);
     const std::size_t i = std::min(static_cast<std::size_t>(along), last - 1);
     const double t = along - static_cast<double>(i);
@@ -143,7 +145,8 @@ Field draw_patch(Dice& dice) {
       const double reach = std::hypot(u, v);
       // To first order: the residual of the ellipse's equation over its gradient.
       const double gradient = std::hypot(u / radius, v / other_radius);
-      beyond_rim = gradient > 0.0 ? reach * (reach - 1.0) / gradient : -std::min(radius, other_radius);
+      beyond_rim =
+          gradient > 0.0 ? reach * (reach - 1.0) / gradient : -std::min(radius, other_radius);
     }
     return rise(-beyond_rim, slope);
   };
@@ -175,8 +178,8 @@ Field draw_steps(Dice& dice) {
 }  // namespace
 
 Field draw_other_family(Dice& dice) {
-  constexpr Field (*kFamilies[])(Dice&) = {
-      draw_fold, draw_band, draw_angle_function, draw_heave, draw_patch, draw_steps};
+  constexpr Field (*kFamilies[])(Dice&) = {draw_fold,  draw_band,  draw_angle_function,
+                                           draw_heave, draw_patch, draw_steps};
   return kFamilies[dice.below(std::size(kFamilies))](dice);
 }
 

@@ -51,10 +51,8 @@ std::vector<Site> sites_of(std::span<const Visit> visits, const std::vector<Rest
   return sites;
 }
 
-SizedPattern draw_pattern(const Yardstick& yardstick,
-                          const PatternRules& rules,
-                          std::span<const Signature> alongside,
-                          Dice& dice) {
+SizedPattern draw_pattern(const Yardstick& yardstick, const PatternRules& rules,
+                          std::span<const Signature> alongside, Dice& dice) {
   const auto rivals = rules.near ? yardstick.rivals() : std::vector<Rival>{};
   for (int n = 0; n < 20000; ++n) {
     const Field field = draw_family(rules.group, dice);

@@ -48,9 +48,7 @@ struct PatternRules {
   bool near = false;
 };
 /// \throws std::runtime_error if 20 000 draws find none.
-SizedPattern draw_pattern(const Yardstick& yardstick,
-                          const PatternRules& rules,
-                          std::span<const Signature> alongside,
-                          Dice& dice);
+SizedPattern draw_pattern(const Yardstick& yardstick, const PatternRules& rules,
+                          std::span<const Signature> alongside, Dice& dice);
 
 }  // namespace chaintrue::generator

@@ -57,8 +57,7 @@ GondolaPose gondola_hung(const HiddenPlotter& p, Real left, Real right, Real til
         const GondolaPose pose{middle[0], middle[1], tilt};
         return std::array<Real, 2>{paid_out(p, pose, -1) - left, paid_out(p, pose, 1) - right};
       },
-      {x, -std::sqrt(left * left - across * across)},
-      {1e-6L, 1e-6L});
+      {x, -std::sqrt(left * left - across * across)}, {1e-6L, 1e-6L});
   return {at[0], at[1], tilt};
 }
 
@@ -67,8 +66,8 @@ Real mass_height(const HiddenPlotter& p, const GondolaPose& pose) {
 }
 
 /// A cord of links with the pull (h, v) at the pen's end: the error of its extent.
-std::array<Real, 2> shot(
-    const HiddenPlotter& p, Real h, Real v, Real s, int links, std::array<Real, 2> extent) {
+std::array<Real, 2> shot(const HiddenPlotter& p, Real h, Real v, Real s, int links,
+                         std::array<Real, 2> extent) {
   const Real own = s / links;
   for (int k = 0; k < links; ++k) {
     const Real up = v + p.cord_n_per_mm * own * (static_cast<Real>(k) + 0.5L);
@@ -90,8 +89,7 @@ EndOfCord spanning(const HiddenPlotter& p, Real h, int links, std::array<Real, 2
   const Real v = h * extent[1] / extent[0] - 0.5L * p.cord_n_per_mm * chord;
   const auto end = both_zero(
       [&](const std::array<Real, 2>& at) { return shot(p, h, at[0], at[1], links, extent); },
-      {v, chord},
-      {1e-7L * (std::abs(v) + h), 1e-7L * chord});
+      {v, chord}, {1e-7L * (std::abs(v) + h), 1e-7L * chord});
   return {end[0], end[1]};
 }
 
@@ -114,7 +112,9 @@ PenAtRest lowest_pose(const HiddenPlotter& p, double left_mm, double right_mm) {
     constexpr Real kGolden = 0.6180339887498948482L;
     constexpr int kSections = 47;  // of 2 rad: to 4e-10
     Real low = -1.0L, high = 1.0L;
-    const auto height = [&](Real t) { return mass_height(p, gondola_hung(p, left_mm, right_mm, t)); };
+    const auto height = [&](Real t) {
+      return mass_height(p, gondola_hung(p, left_mm, right_mm, t));
+    };
     Real inner_low = high - kGolden * (high - low), inner_high = low + kGolden * (high - low);
     Real at_low = height(inner_low), at_high = height(inner_high);
     for (int n = 0; n < kSections; ++n) {
@@ -141,9 +141,7 @@ PenAtRest lowest_pose(const HiddenPlotter& p, double left_mm, double right_mm) {
           static_cast<double>(tilt)};
 }
 
-std::array<double, 2> lengths_of_links(const HiddenPlotter& p,
-                                       double x_mm,
-                                       double y_mm,
+std::array<double, 2> lengths_of_links(const HiddenPlotter& p, double x_mm, double y_mm,
                                        int links) {
   const std::array<Real, 2> left{x_mm + 0.5L * p.pin_spacing_mm, -0.5L * p.pin_rise_mm - y_mm};
   const std::array<Real, 2> right{0.5L * p.pin_spacing_mm - x_mm, 0.5L * p.pin_rise_mm - y_mm};
@@ -152,8 +150,7 @@ std::array<double, 2> lengths_of_links(const HiddenPlotter& p,
       [&](Real pull) {
         return spanning(p, pull, links, left).v + spanning(p, pull, links, right).v - p.weight_n;
       },
-      0.01L * p.weight_n,
-      50.0L * p.weight_n);
+      0.01L * p.weight_n, 50.0L * p.weight_n);
   return {static_cast<double>(spanning(p, h, links, left).s),
           static_cast<double>(spanning(p, h, links, right).s)};
 }

@@ -43,9 +43,7 @@ PenAtRest lowest_pose(const HiddenPlotter& plotter, double left_mm, double right
 
 /// Unstretched lengths of cords of `links` links each to a pen that both end at, without pulleys and
 /// standoff. The error falls with the square of the links' number.
-std::array<double, 2> lengths_of_links(const HiddenPlotter& plotter,
-                                       double x_mm,
-                                       double y_mm,
+std::array<double, 2> lengths_of_links(const HiddenPlotter& plotter, double x_mm, double y_mm,
                                        int links);
 
 }  // namespace chaintrue::generator

@@ -189,10 +189,8 @@ std::optional<Rest> come_to_rest(const TrueMachine& machine, Vec2 bit, const Res
   s.rise = {machine.axis[0].y - bit.y, machine.axis[1].y - bit.y};
   if (s.reach[0] <= 0.0 || s.reach[1] <= 0.0 || s.rise[0] + s.rise[1] <= 0.0) return std::nullopt;
 
-  Unknowns q = near != nullptr ? Unknowns(near->horizontal_right_n,
-                                          near->vertical_left_n,
-                                          near->drum_free_mm[0],
-                                          near->drum_free_mm[1])
+  Unknowns q = near != nullptr ? Unknowns(near->horizontal_right_n, near->vertical_left_n,
+                                          near->drum_free_mm[0], near->drum_free_mm[1])
                                : straight_start(s);
   const std::array<int, 2> pieces{pieces_for(machine, q[2]), pieces_for(machine, q[3])};
   const auto error = [&](Pull p, double free_mm, int side) {

@@ -9,8 +9,8 @@
 namespace chaintrue::generator {
 
 std::string_view word(Order order) {
-  constexpr std::string_view kWords[] = {
-      "rows", "columns", "serpentine_rows", "serpentine_columns", "random"};
+  constexpr std::string_view kWords[] = {"rows", "columns", "serpentine_rows", "serpentine_columns",
+                                         "random"};
   return kWords[static_cast<std::size_t>(order)];
 }
 

@@ -61,10 +61,8 @@ Signature Projection::left_of(const Eigen::VectorXd& rows) const {
   return all;
 }
 
-std::optional<Yardstick> Yardstick::make(const TrueMachine& machine,
-                                         std::span<const Visit> visits,
-                                         NoiseLevel noise,
-                                         StatedSigmas stated) {
+std::optional<Yardstick> Yardstick::make(const TrueMachine& machine, std::span<const Visit> visits,
+                                         NoiseLevel noise, StatedSigmas stated) {
   Yardstick y;
   y.machine_ = machine;
   y.machine_.wheel = WheelShape::round;
@@ -74,10 +72,10 @@ std::optional<Yardstick> Yardstick::make(const TrueMachine& machine,
   y.rests_ = std::move(*at_rest);
   y.plain_ = readings(y.machine_, {}, visits, y.rests_);
 
-  const auto by_x = difference(
-      y.machine_, moved(visits, kStep, 0), y.machine_, moved(visits, -kStep, 0), y.rests_);
-  const auto by_y = difference(
-      y.machine_, moved(visits, 0, kStep), y.machine_, moved(visits, 0, -kStep), y.rests_);
+  const auto by_x = difference(y.machine_, moved(visits, kStep, 0), y.machine_,
+                               moved(visits, -kStep, 0), y.rests_);
+  const auto by_y = difference(y.machine_, moved(visits, 0, kStep), y.machine_,
+                               moved(visits, 0, -kStep), y.rests_);
   if (!by_x || !by_y) return std::nullopt;
   const double l2 = noise.length_mm * noise.length_mm;
   const double p2 = noise.position_mm * noise.position_mm;

@@ -58,10 +58,8 @@ class Projection {
 class Yardstick {
  public:
   /// Empty if the machine cannot reach a visit.
-  static std::optional<Yardstick> make(const TrueMachine& machine,
-                                       std::span<const Visit> visits,
-                                       NoiseLevel noise,
-                                       StatedSigmas stated);
+  static std::optional<Yardstick> make(const TrueMachine& machine, std::span<const Visit> visits,
+                                       NoiseLevel noise, StatedSigmas stated);
 
   std::optional<Signature> signature(std::span<const Hidden> effects) const;
   Signature signature_of(const Disturbance& disturbance) const;

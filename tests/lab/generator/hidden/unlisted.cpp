@@ -13,7 +13,9 @@ std::function<Vec2(Vec2)> draw_oddity(Dice& dice) {
   const double direction = dice.uniform(-std::numbers::pi, std::numbers::pi);
   const double phase = dice.uniform(-std::numbers::pi, std::numbers::pi);
   const double c = std::cos(direction), s = std::sin(direction);
-  const auto across = [=](Vec2 place) { return c * (place.x - centre.x) + s * (place.y - centre.y); };
+  const auto across = [=](Vec2 place) {
+    return c * (place.x - centre.x) + s * (place.y - centre.y);
+  };
   switch (oddity) {
     case 0: {
       const double extent = dice.uniform(200.0, 400.0);

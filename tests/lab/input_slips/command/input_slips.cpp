@@ -27,16 +27,19 @@ std::string word_of(const Kind& kind) {
 
 std::vector<chaintrue::sealed::RateRow> all_rows() {
   std::vector<chaintrue::sealed::RateRow> rows;
-  for (const Kind& kind : kinds()) rows.push_back({std::string(word(kind.way)), kind.id, word_of(kind), {"named"}});
+  for (const Kind& kind : kinds())
+    rows.push_back({std::string(word(kind.way)), kind.id, word_of(kind), {"named"}});
   rows.push_back({"all kinds", "identified", "slip", {"named"}, 0.0, 1e9, {}, 0.97});
-  rows.push_back({"no slip", "accepted without a message", "clean", {"accepted"}, 0.0, 1e9, {}, 0.99});
+  rows.push_back(
+      {"no slip", "accepted without a message", "clean", {"accepted"}, 0.0, 1e9, {}, 0.99});
   return rows;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  chaintrue::sealed::Campaign campaign("How often a gross slip in a measured file is named", argc, argv);
+  chaintrue::sealed::Campaign campaign("How often a gross slip in a measured file is named", argc,
+                                       argv);
   campaign.sets = 10;
   int clean = 400;
   campaign.app.add_option("--machines", campaign.sets, "Of each kind");
@@ -65,7 +68,8 @@ int main(int argc, char** argv) {
       outcome.add("named", tried.is_named);
       said = tried.reported.messages;
       const auto& [words, place, refused] = tried.expected;
-      said.push_back(fmt::format("expected {} {}{}", place, words.front(), refused ? ", refused" : ""));
+      said.push_back(
+          fmt::format("expected {} {}{}", place, words.front(), refused ? ", refused" : ""));
     }
     if (campaign.show && outcome.facts.empty()) fmt::print("{}\n", fmt::join(said, "\n  "));
     return std::vector{outcome};

@@ -312,11 +312,8 @@ std::vector<Kind> all_kinds() {
     const Way way = *std::ranges::find(kWays, row.at(0), word);
     kinds.push_back(
         {row.at(1), way, [way, spoil = kSpoils.at(row.at(2)), row](Session& session, Dice& dice) {
-           return spoil({way,
-                         sealed::words_of(row.at(4), '|'),
-                         sealed::words_of(row.at(3), ' '),
-                         session,
-                         dice});
+           return spoil({way, sealed::words_of(row.at(4), '|'), sealed::words_of(row.at(3), ' '),
+                         session, dice});
          }});
   }
   return kinds;

@@ -98,16 +98,13 @@ grid::MeasuredBelts belts_of(std::uint64_t seed) {
   const auto taped = [&](std::size_t i) {
     const auto& a = draw.frame.anchors[i];
     return model::Anchor{a[0] + (i == 2 ? 0.0 : 10.0 * dice.normal()),
-                         a[1] + (i >= 2 ? 0.0 : 10.0 * dice.normal()),
-                         a[2]};
+                         a[1] + (i >= 2 ? 0.0 : 10.0 * dice.normal()), a[2]};
   };
   belts.machine.anchors = {taped(0), taped(1), taped(2), taped(3)};
   int order = 0;
   for (const generator::FourLengths& read : draw.lengths_mm) {
     grid::BeltPoint point;
-    point.lengths_mm = {rounded(read[0], 0.01),
-                        rounded(read[1], 0.01),
-                        rounded(read[2], 0.01),
+    point.lengths_mm = {rounded(read[0], 0.01), rounded(read[1], 0.01), rounded(read[2], 0.01),
                         rounded(read[3], 0.01)};
     point.order = order++;
     belts.points.push_back(std::move(point));

@@ -18,14 +18,16 @@
 int main(int argc, char** argv) {
   using namespace chaintrue;
   using planted::Outcome;
-  sealed::Campaign campaign("The rates of the diagnosis on real scans with a known cause added", argc, argv);
+  sealed::Campaign campaign("The rates of the diagnosis on real scans with a known cause added",
+                            argc, argv);
   campaign.sets = 36;
   std::vector<std::string> paths;
   std::string settings = CHAINTRUE_SHARED_DATA "/holey/groundcontrol_2018-09-01b.ini";
   std::string frozen = CHAINTRUE_FIXTURES "/planted/references.txt";
   bool is_reference = false;
   CLI::App& app = campaign.app;
-  app.add_option("--scan", paths, "A scan of the optical calibration; may be repeated")->check(CLI::ExistingFile);
+  app.add_option("--scan", paths, "A scan of the optical calibration; may be repeated")
+      ->check(CLI::ExistingFile);
   app.add_option("--settings", settings, "The machine's groundcontrol.ini");
   app.add_option("--references", frozen, "Diagnoses of the whole scans, frozen");
   app.add_flag("--reference", is_reference, "Write FILE as such references");
@@ -45,22 +47,24 @@ int main(int argc, char** argv) {
   };
   app.final_callback([&] {
     if (!is_reference) return;
-    for (const std::string& path : paths) references.push_back(make_reference(planted::read_scan(path, settings)));
+    for (const std::string& path : paths)
+      references.push_back(make_reference(planted::read_scan(path, settings)));
     std::ofstream file(campaign.file, std::ios::binary);
-    if (!(file << planted::text_of(references))) throw CLI::FileError(campaign.file + " cannot be written");
+    if (!(file << planted::text_of(references)))
+      throw CLI::FileError(campaign.file + " cannot be written");
     throw CLI::Success();
   });
   campaign.finish = [&](std::vector<Outcome>& outcomes) {
     planted::set_facts(outcomes, references);
     const sealed::Calibration calibration = planted::claims_held_against(outcomes, references);
     fmt::print("Stated probabilities, {} claims whose truth is known: calibration error {:.3f}\n\n",
-               calibration.claims(),
-               calibration.error());
+               calibration.claims(), calibration.error());
   };
   return campaign.run(
       list,
       [&](const sealed::PlannedSet& set) {
-        auto [plain, planted] = run_draw(*std::ranges::find(scans, set.kind, &planted::Scan::name), references, set.seed);
+        auto [plain, planted] = run_draw(*std::ranges::find(scans, set.kind, &planted::Scan::name),
+                                         references, set.seed);
         return std::vector<Outcome>{std::move(plain), std::move(planted)};
       },
       sealed::rows_of("planted"));

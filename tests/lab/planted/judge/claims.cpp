@@ -21,9 +21,11 @@ Reference parse_reference(const std::string& line) {
   Reference r;
   std::string words;
   SmoothField& f = r.field;
-  stream >> r.scan >> r.points >> f.length_mm >> f.left_mm >> f.right_mm >> f.correlation >> f.noise_factor >> words;
+  stream >> r.scan >> r.points >> f.length_mm >> f.left_mm >> f.right_mm >> f.correlation >>
+      f.noise_factor >> words;
   if (!stream) throw std::invalid_argument("no reference: \"" + line + "\"");
-  for (const std::string& word : sealed::words_of(words, ',')) r.claims.push_back(sealed::parse_claim(word));
+  for (const std::string& word : sealed::words_of(words, ','))
+    r.claims.push_back(sealed::parse_claim(word));
   return r;
 }
 
@@ -37,7 +39,8 @@ std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found) {
     if (!is_cause || h.probability < kLeastWritten) continue;
     Claim claim{{sealed::id_of(h.effect, h.side)}, std::round(1e4 * h.probability) / 1e4};
     // A hypothesis has the name of its class.
-    for (std::size_t i = 1; i < h.causes.size(); ++i) claim.members.push_back(sealed::id_of(h.causes[i]));
+    for (std::size_t i = 1; i < h.causes.size(); ++i)
+      claim.members.push_back(sealed::id_of(h.causes[i]));
     std::sort(claim.members.begin() + 1, claim.members.end());
     claims.push_back(std::move(claim));
   }
@@ -47,7 +50,8 @@ std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found) {
 double probability_in(const std::vector<Claim>& claims, const Claim& of) {
   double most = 0.0;
   for (const Claim& claim : claims) {
-    const bool common = std::ranges::any_of(of.members, [&](const auto& id) { return claim.means(id); });
+    const bool common =
+        std::ranges::any_of(of.members, [&](const auto& id) { return claim.means(id); });
     if (common) most = std::max(most, claim.probability);
   }
   return most;
@@ -60,13 +64,8 @@ std::string text_of(const std::vector<Reference>& references) {
   for (const Reference& r : references) {
     std::vector<std::string> words;
     for (const Claim& claim : r.claims) words.push_back(word_of(claim));
-    text += fmt::format("{} {} {:.0f} {:.3f} {:.3f} {:.2f} {:.3f} {}\n",
-                        r.scan,
-                        r.points,
-                        r.field.length_mm,
-                        r.field.left_mm,
-                        r.field.right_mm,
-                        r.field.correlation,
+    text += fmt::format("{} {} {:.0f} {:.3f} {:.3f} {:.2f} {:.3f} {}\n", r.scan, r.points,
+                        r.field.length_mm, r.field.left_mm, r.field.right_mm, r.field.correlation,
                         r.field.noise_factor,
                         words.empty() ? "-" : fmt::format("{}", fmt::join(words, ",")));
   }

@@ -22,9 +22,7 @@ const std::string kPlain = "plain";
 const std::string kPlanted = "planted";
 
 /// `hidden`: effect:side, empty where nothing is.
-Outcome outcome_of(const std::string& kind,
-                   std::uint64_t seed,
-                   const grid::MeasuredGrid& grid,
+Outcome outcome_of(const std::string& kind, std::uint64_t seed, const grid::MeasuredGrid& grid,
                    const std::vector<std::string>& hidden) {
   const grid::diagnosis::Diagnosis found = diagnosed(grid);
   sealed::Trial trial(found);
@@ -48,10 +46,13 @@ std::vector<Claim> claims_in(const Outcome& outcome) {
 bool is_plain(const Outcome& outcome) { return outcome.way() == kPlain; }
 
 /// Claims of this probability and more, the planted cause left out, whose class the whole scan denies, or bears out.
-int count_claims(const Outcome& outcome, const std::vector<Reference>& references, double at_least, bool is_denied) {
+int count_claims(const Outcome& outcome, const std::vector<Reference>& references, double at_least,
+                 bool is_denied) {
   const std::vector<Claim>& whole = reference_of(references, outcome.group()).claims;
   return static_cast<int>(std::ranges::count_if(claims_in(outcome), [&](const Claim& claim) {
-    if (claim.probability < at_least || (!outcome.hidden.empty() && claim.means(outcome.hidden.front()))) return false;
+    if (claim.probability < at_least ||
+        (!outcome.hidden.empty() && claim.means(outcome.hidden.front())))
+      return false;
     const double there = probability_in(whole, claim);
     return is_denied ? there < kDenied : there > kBorneOut;
   }));
@@ -71,8 +72,7 @@ bool others_stay(const Outcome& plain, const Outcome& planted) {
 
 }  // namespace
 
-std::pair<Outcome, Outcome> run_draw(const Scan& scan,
-                                     const std::vector<Reference>& references,
+std::pair<Outcome, Outcome> run_draw(const Scan& scan, const std::vector<Reference>& references,
                                      std::uint64_t seed) {
   const Draw draw = draw_planted(scan, references, seed);
   std::pair<Outcome, Outcome> both{
@@ -92,7 +92,8 @@ void set_facts(std::vector<Outcome>& outcomes, const std::vector<Reference>& ref
   }
   for (Outcome& o : outcomes) {
     const auto before = plain.find({o.group(), o.seed});
-    if (before == plain.end()) throw std::invalid_argument("no outcome of the plain readings of \"" + line_of(o) + "\"");
+    if (before == plain.end())
+      throw std::invalid_argument("no outcome of the plain readings of \"" + line_of(o) + "\"");
     const bool with_order = o.has("order"), named = o.has("named");
     o.facts.clear();
     o.add("order", with_order);
@@ -100,7 +101,8 @@ void set_facts(std::vector<Outcome>& outcomes, const std::vector<Reference>& ref
       for (const bool is_denied : {true, false})
         o.numbers[fmt::format("{}_{}", is_denied ? "denied" : "borne_out", percent)] =
             count_claims(o, references, 0.01 * percent, is_denied);
-      o.add(fmt::format("none_denied_{}", percent), o.numbers[fmt::format("denied_{}", percent)] == 0.0);
+      o.add(fmt::format("none_denied_{}", percent),
+            o.numbers[fmt::format("denied_{}", percent)] == 0.0);
     }
     if (is_plain(o)) continue;
     o.add("named", named);

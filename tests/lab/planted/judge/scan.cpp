@@ -71,8 +71,7 @@ grid::MeasuredGrid some_of(const Scan& scan, std::size_t marks, Dice& dice) {
 }
 
 /// What a cause adds to the readings at the marks as they are written.
-std::vector<Lengths> added_by(const CalibratedSession& session,
-                              const std::vector<ReadMark>& marks,
+std::vector<Lengths> added_by(const CalibratedSession& session, const std::vector<ReadMark>& marks,
                               const Hidden& hidden) {
   const Hidden one[] = {hidden};
   std::vector<Visit> visits;
@@ -93,13 +92,10 @@ std::vector<Lengths> added_by(const CalibratedSession& session,
 }
 
 Hidden drawn_cause(const CalibratedSession& session, std::uint64_t seed, Dice& dice) {
-  constexpr std::array kCauses = {Cause::chain_stretch,
-                                  Cause::beam_flex,
-                                  Cause::sprocket_eccentricity,
-                                  Cause::angular_kink,
-                                  Cause::zero_shift,
-                                  Cause::drift,
-                                  Cause::tape_scale};
+  constexpr std::array kCauses = {
+      Cause::chain_stretch, Cause::beam_flex,  Cause::sprocket_eccentricity,
+      Cause::angular_kink,  Cause::zero_shift, Cause::drift,
+      Cause::tape_scale};
   const Cause cause = kCauses[seed % kCauses.size()];
   for (int n = 0; n < 30; ++n) {
     const auto drawn = generator::draw_sized_effect(session.yardstick, cause, 8.0, 20.0, dice);
@@ -116,12 +112,10 @@ Hidden drawn_cause(const CalibratedSession& session, std::uint64_t seed, Dice& d
 
 Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& groundcontrol_ini) {
   grid::files::OpticalOptions options;
-  options.machine =
-      grid::files::read(
-          grid::files::parse_groundcontrol, groundcontrol_ini, grid::files::Tolerances::unexplained)
-          .machine;
-  Scan result{scan.stem().string(),
-              machine_of(options.machine),
+  options.machine = grid::files::read(grid::files::parse_groundcontrol, groundcontrol_ini,
+                                      grid::files::Tolerances::unexplained)
+                        .machine;
+  Scan result{scan.stem().string(), machine_of(options.machine),
               grid::files::read(grid::files::parse_optical, scan, options).grid};
   result.grid.noise = grid::StatedNoise{0.1, 0.3, 12.0};
   const auto lengths = grid::length_points(result.grid);
@@ -149,9 +143,7 @@ Reference make_reference(const Scan& scan) {
   Dice dice(0, "field");
   const grid::MeasuredGrid some =
       some_of(scan, std::min(kFieldMarks, scan.grid.points.size()), dice);
-  return {scan.name,
-          scan.grid.points.size(),
-          likeliest_field(calibrated(scan, some)),
+  return {scan.name, scan.grid.points.size(), likeliest_field(calibrated(scan, some)),
           claims_of(diagnosed(scan.grid))};
 }
 

@@ -46,8 +46,7 @@ Eigen::MatrixXd free_columns(const Yardstick& yardstick) {
   return x;
 }
 
-Yardstick yardstick_at(const generator::TrueMachine& machine,
-                       const std::vector<Visit>& visits,
+Yardstick yardstick_at(const generator::TrueMachine& machine, const std::vector<Visit>& visits,
                        generator::NoiseLevel noise) {
   auto made = Yardstick::make(machine, visits, noise, {});
   if (!made) throw std::runtime_error("calibrate: the machine cannot reach a mark");
@@ -129,8 +128,7 @@ Vec2 CalibratedSession::on_bed(Vec2 mark) const {
 }
 
 CalibratedSession calibrate(const generator::TrueMachine& stated,
-                            const std::vector<ReadMark>& marks,
-                            generator::NoiseLevel noise) {
+                            const std::vector<ReadMark>& marks, generator::NoiseLevel noise) {
   // Shifts of centimetres: each step leaves a hundredth of the step before it.
   constexpr int kSteps = 5;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(kSettings + kSheet);
@@ -198,8 +196,7 @@ SmoothField likeliest_field(const CalibratedSession& session) {
   return best;
 }
 
-double strength_given(const SmoothField& field,
-                      const CalibratedSession& session,
+double strength_given(const SmoothField& field, const CalibratedSession& session,
                       const generator::Signature& signature) {
   return std::sqrt(Metric(field, session).square(signature));
 }

@@ -40,8 +40,7 @@ struct ReadMark {
 };
 /// Visits are the marks in their order. \throws std::runtime_error if the machine cannot reach a mark.
 CalibratedSession calibrate(const generator::TrueMachine& stated,
-                            const std::vector<ReadMark>& marks,
-                            generator::NoiseLevel noise);
+                            const std::vector<ReadMark>& marks, generator::NoiseLevel noise);
 
 struct SmoothField {
   double length_mm = 0.0;
@@ -53,8 +52,7 @@ struct SmoothField {
 /// By restricted maximum likelihood among six lengths of 100 to 900 mm.
 SmoothField likeliest_field(const CalibratedSession& session);
 /// `signature` in rows of X.
-double strength_given(const SmoothField& field,
-                      const CalibratedSession& session,
+double strength_given(const SmoothField& field, const CalibratedSession& session,
                       const generator::Signature& signature);
 
 }  // namespace chaintrue::planted

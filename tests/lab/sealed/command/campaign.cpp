@@ -24,7 +24,8 @@ void append(std::vector<Outcome>& outcomes, std::vector<Outcome> more) {
 
 }  // namespace
 
-Campaign::Campaign(const std::string& about, int count, char** words) : app(about), argc(count), argv(words) {
+Campaign::Campaign(const std::string& about, int count, char** words)
+    : app(about), argc(count), argv(words) {
   app.add_option("FILE", file, "Outcomes, a line each: read, added to, sorted");
   app.add_option("--sets", sets, "Of each kind")->check(CLI::Range(1, 1000000));
   app.add_option("--first-seed,--seed", first_seed, "Of the first set; each has the next");
@@ -34,7 +35,8 @@ Campaign::Campaign(const std::string& about, int count, char** words) : app(abou
   app.add_option("--most", most_, "Sets to run; 0: none, the table of what there is");
   app.add_option("--join", join_, "Outcomes of another file of the same version");
   app.add_option("--against", against, "Compare with these outcomes, set by set");
-  app.add_flag("--show", show, "A line for each set; of two versions, for each outcome that is another");
+  app.add_flag("--show", show,
+               "A line for each set; of two versions, for each outcome that is another");
 }
 
 bool Campaign::is_asked(const std::string& kind) const {
@@ -44,11 +46,12 @@ bool Campaign::is_asked(const std::string& kind) const {
 }
 
 std::vector<PlannedSet> Campaign::sets_of(const std::vector<std::string>& kinds,
-                                           std::optional<int> count) const {
+                                          std::optional<int> count) const {
   std::vector<PlannedSet> list;
   for (const std::string& kind : kinds) {
     const int own = is_asked(kind) ? count.value_or(sets) : 0;
-    for (int k = 0; k < own; ++k) list.push_back({kind, first_seed + static_cast<std::uint64_t>(k)});
+    for (int k = 0; k < own; ++k)
+      list.push_back({kind, first_seed + static_cast<std::uint64_t>(k)});
   }
   return list;
 }
@@ -68,7 +71,8 @@ int Campaign::run(const List& list, const Run& attempt, const std::vector<RateRo
   }
 }
 
-std::vector<Outcome> Campaign::outcomes_of(const std::vector<PlannedSet>& list, const Run& attempt) const {
+std::vector<Outcome> Campaign::outcomes_of(const std::vector<PlannedSet>& list,
+                                           const Run& attempt) const {
   std::size_t part = 0, parts = 0;
   char end = 0;
   if (std::sscanf(shard_.c_str(), "%zu/%zu%c", &part, &parts, &end) != 2)
@@ -123,13 +127,11 @@ int Campaign::print(const std::vector<Outcome>& outcomes, const std::vector<Rate
   }
   const Comparison comparison = compare(before, outcomes, rows);
   if (comparison.sets == 0) throw std::invalid_argument("no set is in both files");
-  fmt::print("{}\n{} of {} sets compared, {} with another outcome\n",
-             comparison_table(comparison),
-             comparison.sets,
-             before.size(),
-             comparison.changed.size());
+  fmt::print("{}\n{} of {} sets compared, {} with another outcome\n", comparison_table(comparison),
+             comparison.sets, before.size(), comparison.changed.size());
   if (show) {
-    for (const auto& [old, other] : comparison.changed) fmt::print("- {}\n+ {}\n", line_of(old), line_of(other));
+    for (const auto& [old, other] : comparison.changed)
+      fmt::print("- {}\n+ {}\n", line_of(old), line_of(other));
   }
   return comparison.worse() ? kWorse : 0;
 }

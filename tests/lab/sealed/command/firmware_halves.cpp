@@ -21,7 +21,9 @@ sealed::Outcome run_frame(const std::string& folder, const sealed::PlannedSet& s
   grid::files::Maslow4Options options;
   options.part.run = static_cast<int>(set.seed);
   const std::string file = set.kind + ".txt";
-  const auto belts = grid::files::parse_maslow4(grid::files::read_whole_file(folder + "/" + file), file, options).belts;
+  const auto belts =
+      grid::files::parse_maslow4(grid::files::read_whole_file(folder + "/" + file), file, options)
+          .belts;
   std::vector<Spans> spans, halves[2];
   for (const auto& point : belts.points) {
     const auto& l = point.lengths_mm;
@@ -44,7 +46,8 @@ sealed::Outcome run_frame(const std::string& folder, const sealed::PlannedSet& s
   numbers["ours_worst_mm"] = ours->half_left_out->largest_mm;
   double squares = 0.0, count = 0.0;
   for (const std::size_t half : {0, 1}) {
-    for (const double off : sealed::lower_off_mm(sealed::firmware_anchors(halves[1 - half]), halves[half])) {
+    for (const double off :
+         sealed::lower_off_mm(sealed::firmware_anchors(halves[1 - half]), halves[half])) {
       squares += off * off;
       ++count;
       numbers["theirs_worst_mm"] = std::max(numbers["theirs_worst_mm"], std::abs(off));
@@ -57,16 +60,19 @@ sealed::Outcome run_frame(const std::string& folder, const sealed::PlannedSet& s
 }  // namespace
 
 int main(int argc, char** argv) {
-  sealed::Campaign campaign("The machine's own fit of its anchors and this one, half by half", argc, argv);
+  sealed::Campaign campaign("The machine's own fit of its anchors and this one, half by half", argc,
+                            argv);
   campaign.show = true;
   std::string folder = "../shared/data/maslow4";
   campaign.app.remove_option(campaign.app.get_option("FILE"));
   campaign.app.add_option("folder", folder, "Logs of real machines");
   const auto list = [&] {
-    std::vector<sealed::PlannedSet> sets = campaign.sets_of({"concrete_anchors", "frame_rebuilt", "mini_frame"}, 1);
+    std::vector<sealed::PlannedSet> sets =
+        campaign.sets_of({"concrete_anchors", "frame_rebuilt", "mini_frame"}, 1);
     const std::vector<sealed::PlannedSet> runs = campaign.sets_of({"ten_runs_1_to_5"}, 5);
     sets.insert(sets.end(), runs.begin(), runs.end());
     return sets;
   };
-  return campaign.run(list, [&](const auto& set) { return std::vector{run_frame(folder, set)}; }, {});
+  return campaign.run(list, [&](const auto& set) { return std::vector{run_frame(folder, set)}; },
+                      {});
 }

@@ -39,7 +39,9 @@ Outcome run_start(const PlannedSet& set) {
   const auto slash = set.kind.find('/');
   sealed::TrialOptions options;
   options.recipe = sealed::recipe_of_start();
-  options.recipe.cause = std::ranges::find(generator::cards(), set.kind.substr(0, slash), &generator::CauseCard::id)->cause;
+  options.recipe.cause =
+      std::ranges::find(generator::cards(), set.kind.substr(0, slash), &generator::CauseCard::id)
+          ->cause;
   options.recipe.delta = sealed::number_of<double>(set.kind.substr(slash + 1));
   return run_trial(set.kind, options, set.seed);
 }
@@ -49,7 +51,8 @@ Outcome strengths(const PlannedSet& of) {
   generator::Recipe nothing = sealed::recipe_of_start();
   nothing.kind = generator::Mix::nothing;
   const generator::SealedSet set = generator::draw_set(nothing, of.seed);
-  const auto yardstick = generator::Yardstick::make(set.machine.truth(), set.machine.visits(), set.noise, {});
+  const auto yardstick =
+      generator::Yardstick::make(set.machine.truth(), set.machine.visits(), set.noise, {});
   Outcome outcome{.kind = of.kind, .seed = of.seed};
   for (const generator::CauseCard& card : generator::cards()) {
     for (const generator::Where where : card.sides) {
@@ -63,8 +66,7 @@ Outcome strengths(const PlannedSet& of) {
 }
 
 /// Tool's rms at the marks that a map was not made of.
-double error_at(const grid::CompensationMap& map,
-                const std::vector<grid::LengthPoint>& points,
+double error_at(const grid::CompensationMap& map, const std::vector<grid::LengthPoint>& points,
                 const std::vector<bool>& drawn) {
   double sum = 0.0;
   int count = 0;
@@ -101,14 +103,16 @@ Outcome run_scan(const PlannedSet& set, const grid::MeasuredGrid& whole, int mar
     return outcome;
   }
   outcome.numbers["built"] = own->built_on.empty() ? 0.0 : 1.0;
-  outcome.numbers["own_over_plain"] = error_at(own->fit.map, *points, drawn) / error_at(plain->map, *points, drawn);
+  outcome.numbers["own_over_plain"] =
+      error_at(own->fit.map, *points, drawn) / error_at(plain->map, *points, drawn);
   return outcome;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sealed::Campaign campaign("Holds maps against the machines that they were measured on.", argc, argv);
+  sealed::Campaign campaign("Holds maps against the machines that they were measured on.", argc,
+                            argv);
   campaign.sets = 40;
   bool zeros = false, start = false, promised = false;
   std::string scan;
@@ -142,5 +146,6 @@ int main(int argc, char** argv) {
            : promised ? sealed::promised_outcome(set.kind, set.seed)
                       : sealed::stated_outcome(set.kind, set.seed);
   };
-  return campaign.run(list, [&](const PlannedSet& set) { return std::vector{run(set)}; }, rows);
+  return campaign.run(
+      list, [&](const PlannedSet& set) { return std::vector{run(set)}; }, rows);
 }

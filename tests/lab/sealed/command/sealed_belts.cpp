@@ -21,14 +21,16 @@ struct Strengths {
   const char* name;
   double least, most;
 };
-constexpr Strengths kStrengths[] = {{"weak", 6.0, 8.0}, {"middle", 8.0, 12.0}, {"strong", 12.0, 60.0}};
+constexpr Strengths kStrengths[] = {
+    {"weak", 6.0, 8.0}, {"middle", 8.0, 12.0}, {"strong", 12.0, 60.0}};
 
 /// Stretch, yielding anchors and a belt's scale in turn.
 std::vector<Outcome> run_two_pulls(const PlannedSet& set, std::uint64_t index) {
   constexpr std::array kEffects = {"belt_stretch", "anchor_flex", "belt_scale"};
-  const auto strength = std::ranges::find(kStrengths, set.kind.substr(kTwoPulls.size()), &Strengths::name);
-  chaintrue::generator::BeltRecipe recipe{
-      kEffects[index % kEffects.size()], false, strength->least, strength->most, 0};
+  const auto strength =
+      std::ranges::find(kStrengths, set.kind.substr(kTwoPulls.size()), &Strengths::name);
+  chaintrue::generator::BeltRecipe recipe{kEffects[index % kEffects.size()], false, strength->least,
+                                          strength->most, 0};
   const Outcome one = run_belts_trial(set.kind + ":one_pull", recipe, set.seed, true);
   recipe.pulls = {1.0, 1.6};
   Outcome two = run_belts_trial(set.kind + ":two_pulls", recipe, set.seed, true);

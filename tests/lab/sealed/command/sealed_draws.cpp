@@ -44,23 +44,22 @@ void print_claims(const std::vector<Outcome>& outcomes) {
   for (const Outcome& outcome : outcomes) {
     for (const std::string& word : outcome.named) {
       const sealed::Claim claim = sealed::parse_claim(word);
-      const bool acts = std::ranges::any_of(outcome.hidden, [&](const auto& id) { return claim.means(id); });
+      const bool acts =
+          std::ranges::any_of(outcome.hidden, [&](const auto& id) { return claim.means(id); });
       calibration.add(claim.probability, acts);
       sure += claim.probability >= 0.95 ? 1 : 0;
       right += claim.probability >= 0.95 && acts ? 1 : 0;
     }
   }
   fmt::print("{} claims: calibration error {:.3f}; of those of 95 % or more {} of {} are right\n\n",
-             calibration.claims(),
-             calibration.error(),
-             right,
-             sure);
+             calibration.claims(), calibration.error(), right, sure);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sealed::Campaign campaign("Hides a cause in many sets of data and counts how often it is found.", argc, argv);
+  sealed::Campaign campaign("Hides a cause in many sets of data and counts how often it is found.",
+                            argc, argv);
   sealed::TrialOptions options{.more = true};
   generator::Recipe& recipe = options.recipe;
   std::string mix = "single", points = "mix";

@@ -13,9 +13,12 @@ int main(int argc, char** argv) {
   Campaign campaign("How often a reported law is right", argc, argv);
   campaign.sets = 60;
   bool in_use = false;
-  campaign.app.add_flag("--in-use", in_use, "Claimed laws in a second session, in another machine's and in a map");
+  campaign.app.add_flag("--in-use", in_use,
+                        "Claimed laws in a second session, in another machine's and in a map");
   const std::vector<RateRow> rows = rows_of("laws");
   return campaign.run([&] { return campaign.sets_of(kinds_of(rows)); },
-                      [&](const PlannedSet& set) { return std::vector{run_laws_trial(set.kind, set.seed, in_use)}; },
+                      [&](const PlannedSet& set) {
+                        return std::vector{run_laws_trial(set.kind, set.seed, in_use)};
+                      },
                       rows);
 }

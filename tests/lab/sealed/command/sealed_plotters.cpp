@@ -24,7 +24,8 @@ std::vector<Kind> all_kinds() {
   std::vector<Kind> kinds;
   for (const PlotterKind plotter : kPlotterKinds) {
     for (const HiddenCause& cause : causes_of(plotter))
-      kinds.push_back({fmt::format("{}/{}_{}:hidden", name(plotter), cause.effect, cause.side), plotter, cause});
+      kinds.push_back({fmt::format("{}/{}_{}:hidden", name(plotter), cause.effect, cause.side),
+                       plotter, cause});
     kinds.push_back({fmt::format("{}:sound", name(plotter)), plotter, {}});
   }
   return kinds;
@@ -51,7 +52,8 @@ int main(int argc, char** argv) {
   const auto list = [&] {
     std::vector<PlannedSet> sets;
     for (const Kind& kind : kinds) {
-      const std::vector<PlannedSet> own = campaign.sets_of({kind.word}, kind.cause.effect.empty() ? sound : campaign.sets);
+      const std::vector<PlannedSet> own =
+          campaign.sets_of({kind.word}, kind.cause.effect.empty() ? sound : campaign.sets);
       sets.insert(sets.end(), own.begin(), own.end());
     }
     return sets;

@@ -20,9 +20,11 @@ int main(int argc, char** argv) {
     for (const Outcome& outcome : campaign.before) frozen.emplace(outcome.kind, outcome.seed);
     std::vector<PlannedSet> all = plan();
     std::erase_if(all, [&](const PlannedSet& set) {
-      return (!frozen.empty() && !frozen.contains({set.kind, set.seed})) || !campaign.is_asked(set.kind);
+      return (!frozen.empty() && !frozen.contains({set.kind, set.seed})) ||
+             !campaign.is_asked(set.kind);
     });
     return all;
   };
-  return campaign.run(list, [](const PlannedSet& set) { return std::vector{run_set(set)}; }, rate_rows());
+  return campaign.run(
+      list, [](const PlannedSet& set) { return std::vector{run_set(set)}; }, rate_rows());
 }

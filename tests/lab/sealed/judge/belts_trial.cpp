@@ -58,8 +58,8 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
   const auto& g = diagnosis::marginalised_system(a).g;
   return std::ranges::all_of(leading, [&](const diagnosis::CauseId& other) {
     if (other == *hidden) return true;
-    const double collinearity = diagnosis::collinearity_of(g.col(diagnosis::best_regressor(a, *hidden)),
-                                                           g.col(diagnosis::best_regressor(a, other)));
+    const double collinearity = diagnosis::collinearity_of(
+        g.col(diagnosis::best_regressor(a, *hidden)), g.col(diagnosis::best_regressor(a, other)));
     // 1.645 sqrt(2 (1 - collinearity)) separates 95 of 100; members of a class are never separated.
     const double apart = std::max(1.0 - collinearity, 1.0 - diagnosis::kOneClass);
     return 1.645 * std::sqrt(2.0 / apart) <= secret.strength;
@@ -68,7 +68,8 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
 
 }  // namespace
 
-Outcome run_belts_trial(const std::string& kind, const generator::BeltRecipe& recipe, std::uint64_t seed, bool more) {
+Outcome run_belts_trial(const std::string& kind, const generator::BeltRecipe& recipe,
+                        std::uint64_t seed, bool more) {
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
   const generator::BeltSecret& secret = draw.secret;
   const grid::MeasuredBelts belts = measured_belts_of(draw);
@@ -80,7 +81,8 @@ Outcome run_belts_trial(const std::string& kind, const generator::BeltRecipe& re
   Outcome outcome = outcome_of(kind, seed, trial);
   outcome.points = static_cast<int>(draw.lengths_mm.size());
   outcome.strength = secret.strength;
-  const bool alone = outcome.has("alone"), held = outcome.has("held"), named = !trial.causes.empty();
+  const bool alone = outcome.has("alone"), held = outcome.has("held"),
+             named = !trial.causes.empty();
   const bool one = trial.verdict == grid::diagnosis::Verdict::named;
   outcome.facts.clear();
   if (!found) outcome.fail();

@@ -19,9 +19,7 @@ grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw);
 ///   one_belt   it acts on one belt, and something is named
 ///   set        a set of causes is named, or several
 ///   wrong      one cause is named, and another is hidden
-[[nodiscard]] Outcome run_belts_trial(const std::string& kind,
-                                      const generator::BeltRecipe& recipe,
-                                      std::uint64_t seed,
-                                      bool more = false);
+[[nodiscard]] Outcome run_belts_trial(const std::string& kind, const generator::BeltRecipe& recipe,
+                                      std::uint64_t seed, bool more = false);
 
 }  // namespace chaintrue::sealed

@@ -56,8 +56,7 @@ RateBounds rate_bounds_95(int hits, int of) {
   }
   RateBounds bounds;
   if (hits > 0) {
-    bounds.lower =
-        where([&](double p) { return probability_of_at_least(hits, of, p); }, kEachSide);
+    bounds.lower = where([&](double p) { return probability_of_at_least(hits, of, p); }, kEachSide);
   }
   if (hits < of) {
     bounds.upper =
@@ -79,7 +78,8 @@ RateBounds clustered_bounds(const std::vector<Count>& clusters) {
   const double off = kQuantiles[std::min(clusters.size() - 2, kQuantiles.size() - 1)] *
                      std::sqrt(n / (n - 1.0) * square) / all.of;
   const RateBounds binomial = rate_bounds_95(all.hits, all.of);
-  return {std::max(0.0, std::min(binomial.lower, rate - off)), std::min(1.0, std::max(binomial.upper, rate + off))};
+  return {std::max(0.0, std::min(binomial.lower, rate - off)),
+          std::min(1.0, std::max(binomial.upper, rate + off))};
 }
 
 double sign_test(int lost, int gained) {

@@ -12,9 +12,7 @@ using grid::diagnosis::MeasurementKind;
 using grid::diagnosis::NextMeasurement;
 using grid::diagnosis::Verdict;
 
-bool measure(generator::SealedSet& set,
-             grid::MeasuredGrid& grid,
-             const NextMeasurement& next,
+bool measure(generator::SealedSet& set, grid::MeasuredGrid& grid, const NextMeasurement& next,
              generator::Dice& dice) {
   if (next.kind == MeasurementKind::reading) {
     const auto reading = set.machine.read(name(next.reading.value()), next.side, dice);
@@ -35,9 +33,7 @@ bool measure(generator::SealedSet& set,
 
 }  // namespace
 
-bool follow_up(generator::SealedSet& set,
-               grid::MeasuredGrid grid,
-               Diagnosis found,
+bool follow_up(generator::SealedSet& set, grid::MeasuredGrid grid, Diagnosis found,
                const grid::diagnosis::DiagnosisOptions& how) {
   constexpr int kMeasurements = 8;
   generator::Dice dice(1, "follow-up");

@@ -10,9 +10,7 @@ namespace chaintrue::sealed {
 
 /// Measures in the order of the list, repeats the diagnosis after each round, until a single cause remains or eight are
 /// measured. \returns whether the right one remains.
-bool follow_up(generator::SealedSet& set,
-               grid::MeasuredGrid grid,
-               grid::diagnosis::Diagnosis found,
+bool follow_up(generator::SealedSet& set, grid::MeasuredGrid grid, grid::diagnosis::Diagnosis found,
                const grid::diagnosis::DiagnosisOptions& how);
 
 }  // namespace chaintrue::sealed

@@ -42,8 +42,7 @@ const grid::MeasuredHoles& nine_holes() {
 }
 
 // Newton's method with differences of half a millimetre.
-Vec2 place_reached(const generator::HiddenMachine& machine,
-                   const model::ChainLengths& paid_out,
+Vec2 place_reached(const generator::HiddenMachine& machine, const model::ChainLengths& paid_out,
                    Vec2 at) {
   constexpr double kStepMm = 0.5;
   constexpr int kMost = 20;
@@ -75,8 +74,7 @@ CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
   std::vector<generator::Visit> visits;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const model::BedPoint& near = set.holes[i].commanded;
-    Vec2 place =
-        place_reached(machine, distances->places()[i].lengths, {near.x_mm, near.y_mm});
+    Vec2 place = place_reached(machine, distances->places()[i].lengths, {near.x_mm, near.y_mm});
     visits.push_back({place, static_cast<int>(i)});
     place.x += set.hole_sigma_mm * dice.normal();
     place.y += set.hole_sigma_mm * dice.normal();
@@ -94,7 +92,8 @@ CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
 Outcome run_holes_trial(const std::string& kind, bool long_chain, std::uint64_t seed) {
   std::vector<Hidden> hidden;
   if (long_chain)
-    hidden.push_back({Cause::chain_pitch_error, seed % 2 == 0 ? Where::left : Where::right, kElongation, 0.0});
+    hidden.push_back(
+        {Cause::chain_pitch_error, seed % 2 == 0 ? Where::left : Where::right, kElongation, 0.0});
   const grid::MeasuredHoles set = cut_holes(hidden, seed).set;
   const auto found = grid::diagnosis::diagnose(set, verdict_alone());
   Trial trial(found ? *found : grid::diagnosis::Diagnosis{});

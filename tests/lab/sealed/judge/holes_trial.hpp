@@ -15,8 +15,7 @@ namespace chaintrue::sealed {
 /// Where the hidden machine comes to rest when its controller has paid out these lengths, searched
 /// from a place near by. \throws std::runtime_error where no place has them.
 generator::Vec2 place_reached(const generator::HiddenMachine& machine,
-                              const model::ChainLengths& paid_out,
-                              generator::Vec2 near);
+                              const model::ChainLengths& paid_out, generator::Vec2 near);
 /// fixtures/holes/nine_holes.json.
 const grid::MeasuredHoles& nine_holes();
 

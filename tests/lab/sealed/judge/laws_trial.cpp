@@ -120,7 +120,8 @@ std::optional<Says> said_of(const std::string& grid_text, const model::effects::
   return found->declared.front().says;
 }
 
-std::optional<double> error_ratio(const generator::SealedSet& set, const model::effects::Effect& effect) {
+std::optional<double> error_ratio(const generator::SealedSet& set,
+                                  const model::effects::Effect& effect) {
   grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   const auto plain = grid::joint_fit(grid::Measured(grid));
   grid.machine->declared = {&effect};
@@ -140,9 +141,11 @@ void use(const generator::SealedSet& set, const std::vector<Law>& laws, Outcome&
   const model::effects::Effect& effect = model::effects::declared_effect(*written);
   const generator::Layout layout = generator::layout_of(outcome.points);
   const std::uint64_t other = outcome.seed + kOtherFamily;
-  const auto second =
-      said_of(generator::other_session(set, layout.columns, layout.rows, outcome.seed + kOtherNoise), effect);
-  const auto foreign = said_of(generator::draw_set(recipe_of("laws", other), other).grid_text, effect);
+  const auto second = said_of(
+      generator::other_session(set, layout.columns, layout.rows, outcome.seed + kOtherNoise),
+      effect);
+  const auto foreign =
+      said_of(generator::draw_set(recipe_of("laws", other), other).grid_text, effect);
   outcome.add("used", true);
   outcome.add("confirmed", second == Says::confirmed);
   outcome.add("denied", foreign == Says::denied);
@@ -155,7 +158,8 @@ std::vector<Claim> given_law(const grid::diagnosis::Diagnosis& found, std::vecto
   if (!found.unexplained) return named;
   for (const auto& own : found.unexplained->causes_given_law) {
     if (own.parameters.empty()) {
-      std::erase_if(named, [&](const Claim& one) { return one.members.front() == id_of(own.cause); });
+      std::erase_if(named,
+                    [&](const Claim& one) { return one.members.front() == id_of(own.cause); });
       continue;
     }
     Claim& more = named.emplace_back(Claim{{id_of(own.cause)}, own.probability});
@@ -164,8 +168,10 @@ std::vector<Claim> given_law(const grid::diagnosis::Diagnosis& found, std::vecto
   return named;
 }
 
-void judge_names(const std::vector<Claim>& named, const Trial& trial, const std::string& given, Outcome& outcome) {
-  outcome.add("right" + given, std::ranges::any_of(named, [&](const Claim& one) { return trial.is_hidden(one); }));
+void judge_names(const std::vector<Claim>& named, const Trial& trial, const std::string& given,
+                 Outcome& outcome) {
+  outcome.add("right" + given,
+              std::ranges::any_of(named, [&](const Claim& one) { return trial.is_hidden(one); }));
   outcome.add("wrong" + given, std::ranges::any_of(named, [&](const Claim& one) {
                 return !trial.is_hidden(one) && one.probability >= grid::diagnosis::kLawClaimed;
               }));
@@ -194,20 +200,19 @@ Outcome run_belts_laws_trial(const std::string& kind, std::uint64_t seed) {
 
 }  // namespace
 
-void judge_laws(const grid::diagnosis::Diagnosis& found,
-                const generator::SizedLaw* hidden,
-                const LawEntries& entries,
-                Outcome& outcome) {
+void judge_laws(const grid::diagnosis::Diagnosis& found, const generator::SizedLaw* hidden,
+                const LawEntries& entries, Outcome& outcome) {
   const std::vector<Law> laws = found.unexplained ? found.unexplained->laws : std::vector<Law>{};
   const bool claimed = !laws.empty() && laws.front().probability >= grid::diagnosis::kLawClaimed;
   outcome.verdict = name(found.verdict);
   for (const Law& law : laws)
-    outcome.named.push_back(
-        fmt::format("{}/{}/{}={:.2f}", name(law.of), name(law.shape), name(law.enters), law.probability));
+    outcome.named.push_back(fmt::format("{}/{}/{}={:.2f}", name(law.of), name(law.shape),
+                                        name(law.enters), law.probability));
   outcome.add(claimed ? "claimed" : "unclaimed", true);
   if (hidden == nullptr) return;
   const HiddenLaw& truth = hidden->law;
-  outcome.hidden.push_back(fmt::format("{}/{}", word(truth.family), name(entry_of(truth, entries))));
+  outcome.hidden.push_back(
+      fmt::format("{}/{}", word(truth.family), name(entry_of(truth, entries))));
   outcome.strength = hidden->delta;
   const auto is_right = [&](const Law& law) {
     return is_variable_of(truth, entries, law) && law.enters == entry_of(truth, entries);
@@ -236,8 +241,8 @@ Outcome run_laws_trial(const std::string& kind, std::uint64_t seed, bool in_use)
     const generator::Recipe recipe = recipe_of(kind, seed);
     const generator::SealedSet set = generator::draw_set(recipe, seed);
     outcome = {.seed = seed, .points = recipe.points};
-    const auto found =
-        grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid, verdict_alone());
+    const auto found = grid::diagnosis::diagnose(
+        grid::files::parse_grid(set.grid_text, "sealed.json").grid, verdict_alone());
     if (!found) {
       outcome.fail();
     } else {

@@ -26,7 +26,8 @@ namespace chaintrue::sealed {
 ///                                       that of another machine with another law denies it, or confirms it
 ///   error_ratio (a number)              the tool's true error over the measured area by the first session's map
 ///                                       with the law offered, over that of the map without
-[[nodiscard]] Outcome run_laws_trial(const std::string& kind, std::uint64_t seed, bool in_use = false);
+[[nodiscard]] Outcome run_laws_trial(const std::string& kind, std::uint64_t seed,
+                                     bool in_use = false);
 
 /// Where laws of a kind of readings depend on and enter: those of the left chain or of the belt tl, each followed by
 /// the others'.
@@ -43,10 +44,8 @@ inline constexpr LawEntries kOfBelts{grid::diagnosis::Coordinate::length_tl,
                                      grid::diagnosis::Enters::tl};
 
 /// The laws that were found, against the hidden one, if there is one.
-void judge_laws(const grid::diagnosis::Diagnosis& found,
-                const generator::SizedLaw* hidden,
-                const LawEntries& entries,
-                Outcome& outcome);
+void judge_laws(const grid::diagnosis::Diagnosis& found, const generator::SizedLaw* hidden,
+                const LawEntries& entries, Outcome& outcome);
 
 /// Of holes that were cut and measured with a tape: "laws", "two", "gaussian", "causes" or "nothing".
 [[nodiscard]] Outcome run_holes_laws_trial(const std::string& kind, std::uint64_t seed);

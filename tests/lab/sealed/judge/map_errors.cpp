@@ -19,8 +19,7 @@ using generator::Visit;
 std::vector<Hidden> of_the_bed(std::vector<Hidden> effects) {
   std::erase_if(effects, [](const Hidden& h) {
     return h.cause == generator::Cause::drift || h.cause == generator::Cause::tooth_skip ||
-           h.cause == generator::Cause::link_miscount ||
-           h.cause == generator::Cause::zero_shift ||
+           h.cause == generator::Cause::link_miscount || h.cause == generator::Cause::zero_shift ||
            h.cause == generator::Cause::direction_hysteresis;
   });
   return effects;
@@ -79,12 +78,12 @@ std::optional<std::vector<Missed>> missed_by(const generator::HiddenMachine& las
     const generator::Vec2 mark = generator::written(visits[i].place, lasting.hidden());
     const auto answer = map.query({mark.x, mark.y});
     if (!answer) return std::nullopt;
-    all.push_back({{mark.x, mark.y},
-                   {(*exact)[i][0] - answer->lengths.left_mm,
-                    (*exact)[i][1] - answer->lengths.right_mm},
-                   answer->mark_jacobian,
-                   {answer->sigma.left_mm, answer->sigma.right_mm},
-                   answer->tool_sigma_mm});
+    all.push_back(
+        {{mark.x, mark.y},
+         {(*exact)[i][0] - answer->lengths.left_mm, (*exact)[i][1] - answer->lengths.right_mm},
+         answer->mark_jacobian,
+         {answer->sigma.left_mm, answer->sigma.right_mm},
+         answer->tool_sigma_mm});
   }
   return all;
 }
@@ -98,8 +97,8 @@ std::vector<Visit> area_of(const generator::HiddenMachine& machine) {
 
 std::optional<MapErrors> map_errors(const generator::SealedSet& set,
                                     const grid::CompensationMap& map) {
-  generator::HiddenMachine lasting(
-      set.machine.stated(), set.machine.truth(), of_the_bed(set.machine.hidden()));
+  generator::HiddenMachine lasting(set.machine.stated(), set.machine.truth(),
+                                   of_the_bed(set.machine.hidden()));
   lasting.suffers(set.machine.disturbance());
   const auto missed = missed_by(lasting, area_of(set.machine), map);
   if (!missed) return std::nullopt;

@@ -49,24 +49,18 @@ bool Outcome::has(std::string_view fact) const {
 
 std::string line_of(const Outcome& o) {
   std::vector<std::string> numbers;
-  for (const auto& [name, value] : o.numbers) numbers.push_back(fmt::format("{}={:.6g}", name, value));
-  return fmt::format("{} {} {} {:.2f} {} {} {} {}{}{}",
-                     o.kind,
-                     o.seed,
-                     o.points,
-                     o.strength,
-                     list(o.hidden),
-                     o.verdict,
-                     list(o.named),
-                     list(o.facts),
-                     numbers.empty() ? "" : " ",
-                     fmt::join(numbers, ","));
+  for (const auto& [name, value] : o.numbers)
+    numbers.push_back(fmt::format("{}={:.6g}", name, value));
+  return fmt::format("{} {} {} {:.2f} {} {} {} {}{}{}", o.kind, o.seed, o.points, o.strength,
+                     list(o.hidden), o.verdict, list(o.named), list(o.facts),
+                     numbers.empty() ? "" : " ", fmt::join(numbers, ","));
 }
 
 Outcome parse_outcome(const std::string& line) {
   const std::vector<std::string> words = words_of(line, ' ');
   try {
-    if (words.size() != 8 && words.size() != 9) throw std::invalid_argument("an outcome has 8 or 9 words");
+    if (words.size() != 8 && words.size() != 9)
+      throw std::invalid_argument("an outcome has 8 or 9 words");
     Outcome outcome{words[0],
                     number_of<std::uint64_t>(words[1]),
                     number_of<int>(words[2]),

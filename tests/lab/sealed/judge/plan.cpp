@@ -29,12 +29,15 @@ Run chains(Mix mix, PatternGroup patterns = PatternGroup::smooth) {
 }
 
 Run holes(bool long_chain) {
-  return [=](const std::string& kind, std::uint64_t seed, bool) { return run_holes_trial(kind, long_chain, seed); };
+  return [=](const std::string& kind, std::uint64_t seed, bool) {
+    return run_holes_trial(kind, long_chain, seed);
+  };
 }
 
 Run belts(double least_strength, double most_strength, int bad_readings = 0) {
   return [=](const std::string& kind, std::uint64_t seed, bool more) {
-    return run_belts_trial(kind, {"", most_strength == 0.0, least_strength, most_strength, bad_readings}, seed, more);
+    return run_belts_trial(
+        kind, {"", most_strength == 0.0, least_strength, most_strength, bad_readings}, seed, more);
   };
 }
 
@@ -96,8 +99,8 @@ std::vector<PlannedSet> plan() {
   std::vector<Placed> placed;
   for (const Kind& kind : all_kinds()) {
     for (int k = 0; k < kind.sets; ++k) {
-      placed.push_back({(k + 0.5) / kind.sets,
-                        {kind.name, kind.first_seed + static_cast<std::uint64_t>(k)}});
+      placed.push_back(
+          {(k + 0.5) / kind.sets, {kind.name, kind.first_seed + static_cast<std::uint64_t>(k)}});
     }
   }
   std::ranges::stable_sort(placed, {}, &Placed::at);
@@ -106,8 +109,7 @@ std::vector<PlannedSet> plan() {
   return list;
 }
 
-std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
-                                 std::size_t shard,
+std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list, std::size_t shard,
                                  std::size_t shards) {
   if (shards == 0 || shard == 0 || shard > shards) {
     throw std::invalid_argument(fmt::format("no shard {} of {}", shard, shards));

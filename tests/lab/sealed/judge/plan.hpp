@@ -26,8 +26,7 @@ std::vector<std::string> kinds();
 /// All sets, in the order in which they are run.
 std::vector<PlannedSet> plan();
 /// Part `shard` (from 1) of `shards` parts of the list; together they are the list.
-std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
-                                 std::size_t shard,
+std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list, std::size_t shard,
                                  std::size_t shards);
 /// The outcome of `run`; a failed one, with the message on standard error, if it throws.
 [[nodiscard]] Outcome or_failed(const PlannedSet& set, const std::function<Outcome()>& run);

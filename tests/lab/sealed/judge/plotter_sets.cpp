@@ -39,7 +39,8 @@ model::PlotterMachine machine_of(PlotterKind kind) {
 }
 
 model::PlotterFirmware firmware_of(PlotterKind kind) {
-  return kind == PlotterKind::mural ? model::PlotterFirmware::mural : model::PlotterFirmware::fluidnc;
+  return kind == PlotterKind::mural ? model::PlotterFirmware::mural
+                                    : model::PlotterFirmware::fluidnc;
 }
 
 /// The true plotter: its settings, and the causes in its gondola and spools.
@@ -155,8 +156,8 @@ double measured(const DrawnMeasure& m, const std::vector<Eigen::Vector2d>& pens)
 }
 
 Eigen::Vector2d pen_of(const TruePlotter& plotter, model::ChainLengths counted) {
-  return pen_at_rest(
-      plotter.hung, cord_out(plotter, 0, counted.left_mm), cord_out(plotter, 1, counted.right_mm));
+  return pen_at_rest(plotter.hung, cord_out(plotter, 0, counted.left_mm),
+                     cord_out(plotter, 1, counted.right_mm));
 }
 
 Eigen::VectorXd drawn(const TestDrawing& drawing, const TruePlotter& plotter) {
@@ -211,14 +212,12 @@ std::vector<HiddenCause> causes_of(PlotterKind kind) {
   return causes;
 }
 
-PlotterSet plotter_set(PlotterKind kind,
-                       const HiddenCause& cause,
-                       double least_strength,
-                       double most_strength,
-                       std::uint64_t seed) {
+PlotterSet plotter_set(PlotterKind kind, const HiddenCause& cause, double least_strength,
+                       double most_strength, std::uint64_t seed) {
   constexpr int kDraws = 200, kScalings = 12;
   PlotterSet set{cause, 0.0, grid::planned_drawing(machine_of(kind), firmware_of(kind)), {}};
-  Dice settings(seed, "settings of a plotter"), sizes(seed, "size of a cause"), ruler(seed, "ruler");
+  Dice settings(seed, "settings of a plotter"), sizes(seed, "size of a cause"),
+      ruler(seed, "ruler");
   const TruePlotter sound = true_plotter(set.drawing.machine, settings);
   const Eigen::VectorXd without = drawn(set.drawing, sound);
   Eigen::VectorXd values = without;
@@ -244,7 +243,8 @@ PlotterSet plotter_set(PlotterKind kind,
     values = drawn(set.drawing, plotter);
     set.strength = strength_of(set.drawing, values - without);
     if (set.strength >= least_strength && set.strength <= most_strength) break;
-    if (draw + 1 == kDraws) throw std::runtime_error("no size of " + cause.effect + " is that strong");
+    if (draw + 1 == kDraws)
+      throw std::runtime_error("no size of " + cause.effect + " is that strong");
   }
   for (std::size_t i = 0; i < set.drawing.measures.size(); ++i)
     set.drawing.measures[i].value_mm =

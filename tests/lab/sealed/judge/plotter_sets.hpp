@@ -25,8 +25,8 @@ namespace chaintrue::sealed {
 /// A mural; a body on motors on the wall; a pen on two spools; a light pen on cords that weigh.
 enum class PlotterKind { mural, body, pen, light_pen };
 std::string_view name(PlotterKind kind);
-inline constexpr PlotterKind kPlotterKinds[] = {
-    PlotterKind::mural, PlotterKind::body, PlotterKind::pen, PlotterKind::light_pen};
+inline constexpr PlotterKind kPlotterKinds[] = {PlotterKind::mural, PlotterKind::body,
+                                                PlotterKind::pen, PlotterKind::light_pen};
 
 struct HiddenCause {
   std::string effect;  ///< of the product's catalogue; empty: nothing is wrong
@@ -44,11 +44,8 @@ struct PlotterSet {
   std::function<Eigen::Vector2d(model::ChainLengths)> pen;
 };
 /// With 24 readings of 0.5 mm. Sizes are drawn until the strength is in the range.
-PlotterSet plotter_set(PlotterKind kind,
-                       const HiddenCause& cause,
-                       double least_strength,
-                       double most_strength,
-                       std::uint64_t seed);
+PlotterSet plotter_set(PlotterKind kind, const HiddenCause& cause, double least_strength,
+                       double most_strength, std::uint64_t seed);
 
 enum class PlotterOutcome { named, in_set, wrong, nothing, refused };
 /// `in_set`: among at most three. Of a sound one anything but a name is `nothing`.

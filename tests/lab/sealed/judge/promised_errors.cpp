@@ -69,7 +69,8 @@ Lengths firmware(const ControllerSettings& s, Vec2 command) {
     const double c = std::cos(angle[i]);
     const double pull = std::tan(angle[1 - i]) * c + std::sin(angle[i]);
     const double sag = 1e-12 * *s.chain_sag_correction * std::pow(c * straight[i] * pull, 2);
-    const double tolerance = i == 0 ? *s.left_chain_tolerance_percent : *s.right_chain_tolerance_percent;
+    const double tolerance =
+        i == 0 ? *s.left_chain_tolerance_percent : *s.right_chain_tolerance_percent;
     lengths[i] = radius * angle[i] + straight[i] * (1.0 + sag) / (1.0 + tolerance / 100.0) -
                  *s.rotation_radius_mm;
   }
@@ -98,7 +99,8 @@ generator::Recipe recipe_of(const Outcome& outcome) {
   return recipe;
 }
 
-void add(const std::string& promise, const grid::ErrorSummary& stated, const grid::ErrorSummary& truth, Outcome& outcome) {
+void add(const std::string& promise, const grid::ErrorSummary& stated,
+         const grid::ErrorSummary& truth, Outcome& outcome) {
   outcome.numbers[promise + "_stated_mm"] = stated.rms_mm;
   outcome.numbers[promise + "_true_mm"] = truth.rms_mm;
   outcome.numbers[promise + "_worst_stated_mm"] = stated.maximum_mm;
@@ -115,10 +117,8 @@ struct Place {
 };
 
 /// With what the hidden machine needs to be there.
-std::vector<Place> places_at(const std::vector<Vec2>& within,
-                             const std::vector<Vec2>& edge,
-                             const generator::SealedSet& set,
-                             const grid::CompensationMap& map) {
+std::vector<Place> places_at(const std::vector<Vec2>& within, const std::vector<Vec2>& edge,
+                             const generator::SealedSet& set, const grid::CompensationMap& map) {
   std::vector<Place> places;
   std::vector<generator::Visit> visits;
   const auto add = [&](Vec2 at, bool is_on_edge) {
@@ -136,9 +136,11 @@ std::vector<Place> places_at(const std::vector<Vec2>& within,
 }
 
 /// What the marks span: squares of 75 mm, and its edge every 50 mm.
-std::vector<Place> measured_area(const generator::SealedSet& set, const grid::CompensationMap& map) {
+std::vector<Place> measured_area(const generator::SealedSet& set,
+                                 const grid::CompensationMap& map) {
   std::vector<interp::PlanePoint> marks;
-  for (const model::MarkPoint corner : map.contents().hull) marks.push_back({corner.x_mm, corner.y_mm});
+  for (const model::MarkPoint corner : map.contents().hull)
+    marks.push_back({corner.x_mm, corner.y_mm});
   const interp::ConvexHull hull(marks);
   std::vector<Vec2> within, edge;
   constexpr double kSquareMm = 75.0, kEdgeMm = 50.0;
@@ -151,7 +153,8 @@ std::vector<Place> measured_area(const generator::SealedSet& set, const grid::Co
     const interp::PlanePoint from = corners[i], to = corners[(i + 1) % corners.size()];
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     for (double at = 0.0; at < length; at += kEdgeMm)
-      edge.push_back({from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length});
+      edge.push_back(
+          {from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length});
   }
   return places_at(within, edge, set, map);
 }
@@ -195,8 +198,8 @@ grid::ErrorSummary true_error(const std::vector<Place>& places,
   int within = 0;
   for (const Place& place : places) {
     const Lengths lengths = paid_out(place.at);
-    const double mm = (place.to_tool * Eigen::Vector2d(lengths[0] - place.needed[0],
-                                                       lengths[1] - place.needed[1]))
+    const double mm = (place.to_tool *
+                       Eigen::Vector2d(lengths[0] - place.needed[0], lengths[1] - place.needed[1]))
                           .norm();
     error.maximum_mm = std::max(error.maximum_mm, mm);
     if (place.is_on_edge) continue;
@@ -218,31 +221,34 @@ std::function<Lengths(Vec2)> by_map(const grid::CompensationMap& map) {
 Eigen::RowVectorXd squares_when_laid(const Eigen::Matrix2Xd& tools,
                                      const Eigen::Matrix2Xd& commands,
                                      const Eigen::Matrix3d& laid) {
-  return (laid * tools.colwise().homogeneous() - commands.colwise().homogeneous()).colwise().squaredNorm();
+  return (laid * tools.colwise().homogeneous() - commands.colwise().homogeneous())
+      .colwise()
+      .squaredNorm();
 }
 
 using FrameAnchors = std::array<std::array<double, 3>, 4>;
 
 /// Where the sled of a true frame comes to rest when its upper belts are paid out for `command` by other
 /// anchors.
-Eigen::Vector2d rest_for(const generator::BeltFrame& frame, const FrameAnchors& anchors, Eigen::Vector2d command) {
+Eigen::Vector2d rest_for(const generator::BeltFrame& frame, const FrameAnchors& anchors,
+                         Eigen::Vector2d command) {
   generator::FourLengths held{}, pulls{};
   for (const std::size_t i : {0, 1}) {
     const double level = std::hypot(command.x() - anchors[i][0], command.y() - anchors[i][1]);
     held[i] = std::hypot(level - frame.reach_mm, anchors[i][2]);
   }
   pulls[2] = pulls[3] = frame.pull_n;
-  const auto rest = generator::rest_on_belts(
-      frame, {false, false, true, true}, held, pulls, command.x(), command.y());
+  const auto rest = generator::rest_on_belts(frame, {false, false, true, true}, held, pulls,
+                                             command.x(), command.y());
   return {rest.x_mm, rest.y_mm};
 }
 
 /// Over the hull of the places; with the best placement of the sheet and scale of the belts.
 grid::ErrorSummary true_error_of_belts(const generator::BeltFrame& frame,
-                                       const FrameAnchors& anchors,
-                                       const grid::BeltsFit& fit) {
+                                       const FrameAnchors& anchors, const grid::BeltsFit& fit) {
   std::vector<interp::PlanePoint> measured;
-  for (const grid::FittedPlace& place : fit.places) measured.push_back({place.at.x_mm, place.at.y_mm});
+  for (const grid::FittedPlace& place : fit.places)
+    measured.push_back({place.at.x_mm, place.at.y_mm});
   const interp::ConvexHull hull(measured);
   std::vector<Eigen::Vector2d> within;
   for (double x = 0.0; x <= 5000.0; x += 80.0) {
@@ -256,8 +262,10 @@ grid::ErrorSummary true_error_of_belts(const generator::BeltFrame& frame,
     commands.col(static_cast<Eigen::Index>(i)) = within[i];
     tools.col(static_cast<Eigen::Index>(i)) = rest_for(frame, anchors, within[i]);
   }
-  const Eigen::RowVectorXd squares = squares_when_laid(tools, commands, Eigen::umeyama(tools, commands, true));
-  return {std::sqrt(squares.head(static_cast<Eigen::Index>(inner)).mean()), std::sqrt(squares.maxCoeff())};
+  const Eigen::RowVectorXd squares =
+      squares_when_laid(tools, commands, Eigen::umeyama(tools, commands, true));
+  return {std::sqrt(squares.head(static_cast<Eigen::Index>(inner)).mean()),
+          std::sqrt(squares.maxCoeff())};
 }
 
 void promised_by_belts(Outcome& outcome) {
@@ -289,7 +297,8 @@ void promised_by_belts(Outcome& outcome) {
 
 /// The page is laid as its crosses are drawn with the map: a drawing does not say where it hangs.
 void promised_by_plotter(Outcome& outcome) {
-  const auto kind = std::ranges::find(kPlotterKinds, outcome.way(), [](PlotterKind one) { return name(one); });
+  const auto kind =
+      std::ranges::find(kPlotterKinds, outcome.way(), [](PlotterKind one) { return name(one); });
   const PlotterSet set = plotter_set(*kind, {}, 0.0, 0.0, outcome.seed);
   const auto fit = grid::fit_drawing(set.drawing);
   if (!fit) return outcome.fail();
@@ -303,7 +312,8 @@ void promised_by_plotter(Outcome& outcome) {
   Eigen::Matrix2Xd crosses(2, std::ssize(set.drawing.crosses));
   for (Eigen::Index i = 0; i < crosses.cols(); ++i) {
     const model::BedPoint at = set.drawing.crosses[static_cast<std::size_t>(i)].commanded;
-    crosses.col(i) << at.x_mm + set.drawing.pins_middle.x_mm, at.y_mm + set.drawing.pins_middle.y_mm;
+    crosses.col(i) << at.x_mm + set.drawing.pins_middle.x_mm,
+        at.y_mm + set.drawing.pins_middle.y_mm;
   }
   const Eigen::Matrix3d laid = Eigen::umeyama(pens_of(crosses), crosses, false);
   const std::vector<Vec2> circle = circle_within(map, outcome.seed);
@@ -311,7 +321,8 @@ void promised_by_plotter(Outcome& outcome) {
   for (std::size_t i = 0; i < circle.size(); ++i)
     commands.col(static_cast<Eigen::Index>(i)) << circle[i].x, circle[i].y;
   const Eigen::RowVectorXd squares = squares_when_laid(pens_of(commands), commands, laid);
-  add("cuts", expected_along(circle, map), {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())}, outcome);
+  add("cuts", expected_along(circle, map),
+      {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())}, outcome);
 }
 
 void promised_by_chains(Outcome& outcome) {
@@ -334,12 +345,15 @@ void promised_by_chains(Outcome& outcome) {
   const auto by_settings = [&places](const ControllerSettings& settings) {
     return true_error(places, [&settings](Vec2 at) { return firmware(settings, at); });
   };
-  const auto expected_of = [](const grid::CompensationMap& one) { return one.contents().accuracy.expected_tool; };
+  const auto expected_of = [](const grid::CompensationMap& one) {
+    return one.contents().accuracy.expected_tool;
+  };
   add("today", *today, by_settings(in_force), outcome);
   add("map", expected_of(map), true_error(places, by_map(map)), outcome);
   add("typed", typed->typed, by_settings(typed->settings), outcome);
   add("map_after", expected_of(after), true_error(places, by_map(after)), outcome);
-  add("cuts", expected_along(circle, in_frame), true_error(places_at(circle, {}, set, map), by_map(map)), outcome);
+  add("cuts", expected_along(circle, in_frame),
+      true_error(places_at(circle, {}, set, map), by_map(map)), outcome);
 }
 
 }  // namespace
@@ -347,10 +361,12 @@ void promised_by_chains(Outcome& outcome) {
 std::vector<std::string> promised_kinds() {
   std::vector<std::string> kinds;
   for (const char* machine : {"worn_chain", "bending_beam", "wrong_settings"}) {
-    for (const char* way : {"28", "60", "117", "start"}) kinds.push_back(fmt::format("{}:{}", machine, way));
+    for (const char* way : {"28", "60", "117", "start"})
+      kinds.push_back(fmt::format("{}:{}", machine, way));
   }
   kinds.push_back(kBelts);
-  for (const PlotterKind kind : kPlotterKinds) kinds.push_back(fmt::format("{}:{}", kPlotters, name(kind)));
+  for (const PlotterKind kind : kPlotterKinds)
+    kinds.push_back(fmt::format("{}:{}", kPlotters, name(kind)));
   return kinds;
 }
 

@@ -84,14 +84,9 @@ std::vector<RateRow> rows_of(const std::string& name) {
   std::vector<RateRow> rows;
   for (const std::vector<std::string>& cells : table("sealed/rows.tsv")) {
     if (cells.front() != name) continue;
-    rows.push_back({cells.at(7),
-                    cells.at(8),
-                    cells.at(1),
-                    words_of(cells.at(5), ','),
-                    number_of<double>(cells.at(2)),
-                    number_of<double>(cells.at(3)),
-                    words_of(cells.at(4), ','),
-                    number_of<double>(cells.at(6))});
+    rows.push_back({cells.at(7), cells.at(8), cells.at(1), words_of(cells.at(5), ','),
+                    number_of<double>(cells.at(2)), number_of<double>(cells.at(3)),
+                    words_of(cells.at(4), ','), number_of<double>(cells.at(6))});
   }
   return rows;
 }
@@ -117,13 +112,8 @@ std::string rates_table(const std::vector<Outcome>& outcomes, const std::vector<
     const auto& [hits, of] = counted.all;
     if (of == 0) continue;
     const RateBounds bounds = counted.bounds();
-    text += fmt::format("| {} | {} | {} | {} of {} | {} to {} |\n",
-                        row.hidden,
-                        row.right_is,
-                        percent(static_cast<double>(hits) / of),
-                        hits,
-                        of,
-                        percent(bounds.lower),
+    text += fmt::format("| {} | {} | {} | {} of {} | {} to {} |\n", row.hidden, row.right_is,
+                        percent(static_cast<double>(hits) / of), hits, of, percent(bounds.lower),
                         percent(bounds.upper));
   }
   return text;
@@ -135,12 +125,8 @@ std::string missed(const std::vector<Outcome>& outcomes, const std::vector<RateR
     const auto& [hits, of] = Counted(row, outcomes).all;
     if (of > 0 && row.asked > 0.0 &&
         probability_of_at_least(of - hits, of, 1.0 - row.asked) < kRare)
-      text += fmt::format("MISSED: {}, {}: {} of {}, {} % asked\n",
-                          row.hidden,
-                          row.right_is,
-                          hits,
-                          of,
-                          percent(row.asked));
+      text += fmt::format("MISSED: {}, {}: {} of {}, {} % asked\n", row.hidden, row.right_is, hits,
+                          of, percent(row.asked));
   }
   return text;
 }
@@ -168,14 +154,8 @@ std::string numbers_table(const std::vector<Outcome>& outcomes) {
     }
     const auto n = static_cast<double>(values.size());
     text += fmt::format("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
-                        what.first,
-                        what.second,
-                        values.size(),
-                        sum / n,
-                        std::sqrt(squares / n),
-                        values[values.size() / 2],
-                        values.front(),
-                        values.back());
+                        what.first, what.second, values.size(), sum / n, std::sqrt(squares / n),
+                        values[values.size() / 2], values.front(), values.back());
   }
   return text;
 }
@@ -190,8 +170,7 @@ bool Comparison::worse() const {
   return std::ranges::any_of(rows, [](const auto& row) { return row.worse(); });
 }
 
-Comparison compare(const std::vector<Outcome>& frozen,
-                   const std::vector<Outcome>& now,
+Comparison compare(const std::vector<Outcome>& frozen, const std::vector<Outcome>& now,
                    const std::vector<RateRow>& rows) {
   std::map<std::pair<std::string, std::uint64_t>, const Outcome*> of_now;
   for (const Outcome& outcome : now) of_now[set_key(outcome)] = &outcome;
@@ -222,16 +201,9 @@ std::string comparison_table(const Comparison& comparison) {
       "| hidden | right is | sets | right in both | lost | gained | points | p | |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const RowComparison& row : comparison.rows) {
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {:+.1f} | {:.3f} | {} |\n",
-                        row.row.hidden,
-                        row.row.right_is,
-                        row.sets,
-                        row.both,
-                        row.lost,
-                        row.gained,
-                        row.difference(),
-                        row.p,
-                        row.worse() ? "WORSE" : "");
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {:+.1f} | {:.3f} | {} |\n", row.row.hidden,
+                        row.row.right_is, row.sets, row.both, row.lost, row.gained,
+                        row.difference(), row.p, row.worse() ? "WORSE" : "");
   }
   return text;
 }

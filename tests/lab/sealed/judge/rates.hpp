@@ -71,8 +71,7 @@ struct Comparison {
 
 /// For the sets present in both. \throws std::invalid_argument if the hidden causes of a set differ:
 /// these are not the same sets.
-Comparison compare(const std::vector<Outcome>& frozen,
-                   const std::vector<Outcome>& now,
+Comparison compare(const std::vector<Outcome>& frozen, const std::vector<Outcome>& now,
                    const std::vector<RateRow>& rows = rate_rows());
 
 std::string comparison_table(const Comparison& comparison);

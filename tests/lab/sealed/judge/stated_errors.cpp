@@ -36,7 +36,8 @@ const CauseCard* card_of(std::string_view kind) {
 
 bool may_be_of_holes(const CauseCard* card) {
   if (card == nullptr) return true;
-  return !card->needs_order() && card->cause != Cause::tape_scale && card->cause != Cause::axes_skew;
+  return !card->needs_order() && card->cause != Cause::tape_scale &&
+         card->cause != Cause::axes_skew;
 }
 
 /// Usual size; side, sign and place drawn.
@@ -75,20 +76,25 @@ void fit_both(const grid::Measured& measured, const Judge& judge, Outcome& outco
   outcome.numbers["built"] = own->built_on.empty() ? 0.0 : 1.0;
 }
 
-grid::MeasuredGrid grid_of(const std::string& text) { return grid::files::parse_grid(text, "sealed.json").grid; }
+grid::MeasuredGrid grid_of(const std::string& text) {
+  return grid::files::parse_grid(text, "sealed.json").grid;
+}
 
 void read_chains(const generator::Recipe& recipe, Outcome& outcome) {
   const generator::SealedSet set = generator::draw_set(recipe, outcome.seed);
-  fit_both(grid_of(set.grid_text), [&](const grid::CompensationMap& map) { return map_errors(set, map); }, outcome);
+  fit_both(
+      grid_of(set.grid_text),
+      [&](const grid::CompensationMap& map) { return map_errors(set, map); }, outcome);
 }
 
 void cut_and_tape(const CauseCard* card, double zero_mm, Outcome& outcome) {
   CutHoles cut = cut_holes(usual_effect(card, 0, outcome.seed), outcome.seed);
   for (grid::HoleDistance& distance : cut.set.distances) distance.distance_mm += zero_mm;
   if (outcome.kind == kKnownTapeZero) cut.set.tape.tape_zero_offset_sigma_mm = 0.0;
-  fit_both(cut.set,
-           [&](const grid::CompensationMap& map) { return map_errors_of_free_sheet(cut.machine, map); },
-           outcome);
+  fit_both(
+      cut.set,
+      [&](const grid::CompensationMap& map) { return map_errors_of_free_sheet(cut.machine, map); },
+      outcome);
 }
 
 }  // namespace
@@ -96,7 +102,8 @@ void cut_and_tape(const CauseCard* card, double zero_mm, Outcome& outcome) {
 std::vector<std::string> stated_kinds() {
   std::vector<std::string> kinds;
   for (const CauseCard& card : generator::cards()) kinds.emplace_back(card.id);
-  kinds.insert(kinds.end(), {"nothing", "tape_zero_known", "tape_zero_0", "tape_zero_2", "tape_zero_5", "tape_zero_6.35"});
+  kinds.insert(kinds.end(), {"nothing", "tape_zero_known", "tape_zero_0", "tape_zero_2",
+                             "tape_zero_5", "tape_zero_6.35"});
   return kinds;
 }
 
@@ -125,7 +132,8 @@ Outcome stated_outcome(const std::string& kind, std::uint64_t seed) {
 }
 
 std::vector<std::string> zero_kinds() {
-  return {"moved_left_6_15", "moved_left_10_17", "moved_right_-3_20", "nothing", "second_5", "second_20", "second_0"};
+  return {"moved_left_6_15", "moved_left_10_17", "moved_right_-3_20", "nothing",
+          "second_5",        "second_20",        "second_0"};
 }
 
 Outcome zero_outcome(const std::string& kind, std::uint64_t seed) {
@@ -134,7 +142,8 @@ Outcome zero_outcome(const std::string& kind, std::uint64_t seed) {
   char side[6] = "";
   double mm = 0.0, visit = 0.0;
   if (std::sscanf(kind.c_str(), "moved_%5[a-z]_%lf_%lf", side, &mm, &visit) == 3) {
-    const auto where = side == std::string_view("left") ? generator::Where::left : generator::Where::right;
+    const auto where =
+        side == std::string_view("left") ? generator::Where::left : generator::Where::right;
     recipe.exactly = {{Cause::zero_shift, where, mm, visit}};
   } else {
     recipe.kind = generator::Mix::nothing;

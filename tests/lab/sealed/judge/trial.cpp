@@ -28,15 +28,17 @@ double strength_of(const generator::Answer& answer) {
 void add_names(const Trial& trial, Outcome& outcome) {
   for (const double least : {0.5, 0.9, 0.95, 0.99, 0.999}) {
     for (const bool right : {true, false}) {
-      outcome.add(fmt::format("{}_{:g}", right ? "right" : "wrong", least),
-                  trial.names_outright() && std::ranges::any_of(trial.causes, [&](const Claim& claim) {
-                    return claim.probability >= least && trial.is_hidden(claim) == right;
-                  }));
+      outcome.add(
+          fmt::format("{}_{:g}", right ? "right" : "wrong", least),
+          trial.names_outright() && std::ranges::any_of(trial.causes, [&](const Claim& claim) {
+            return claim.probability >= least && trial.is_hidden(claim) == right;
+          }));
     }
   }
   outcome.named.clear();
   for (const Claim& claim : trial.causes) outcome.named.push_back(word_of(claim));
-  if (trial.names_something()) outcome.numbers["named_causes"] = static_cast<double>(trial.causes.size());
+  if (trial.names_something())
+    outcome.numbers["named_causes"] = static_cast<double>(trial.causes.size());
 }
 
 void add_errors(const generator::SealedSet& set, const Diagnosis& found, Outcome& outcome) {
@@ -49,9 +51,9 @@ void add_errors(const generator::SealedSet& set, const Diagnosis& found, Outcome
   outcome.numbers["oracle_mm"] = errors->oracle;
   outcome.numbers["extended_over_calibrated"] = errors->extended / errors->calibrated;
   // Naming a reading with a gross error hardly changes anything else.
-  const bool only_miscounts = std::ranges::all_of(set.answer.hidden, [](const generator::Hidden& h) {
-    return h.cause == generator::Cause::link_miscount;
-  });
+  const bool only_miscounts = std::ranges::all_of(
+      set.answer.hidden,
+      [](const generator::Hidden& h) { return h.cause == generator::Cause::link_miscount; });
   const auto is_near = [](double reported, double truth) {
     return std::abs(reported - truth) <= 0.15 * std::abs(truth);
   };
@@ -80,11 +82,15 @@ std::string id_of(const grid::diagnosis::CauseId& cause) {
   return id_of(cause.effect->id, model::effects::name(cause.side));
 }
 
-bool Claim::means(std::string_view id) const { return std::ranges::find(members, id) != members.end(); }
+bool Claim::means(std::string_view id) const {
+  return std::ranges::find(members, id) != members.end();
+}
 
 std::string name_of(const Claim& claim) { return fmt::format("{}", fmt::join(claim.members, "~")); }
 
-std::string word_of(const Claim& claim) { return fmt::format("{}={:.4f}", name_of(claim), claim.probability); }
+std::string word_of(const Claim& claim) {
+  return fmt::format("{}={:.4f}", name_of(claim), claim.probability);
+}
 
 Claim parse_claim(const std::string& word) {
   const auto at = word.rfind('=');
@@ -117,7 +123,9 @@ bool Trial::is_named(const std::string& id) const {
   return std::ranges::any_of(causes, [&](const Claim& claim) { return claim.means(id); });
 }
 
-bool Trial::names_outright() const { return verdict == Verdict::named || verdict == Verdict::several_causes; }
+bool Trial::names_outright() const {
+  return verdict == Verdict::named || verdict == Verdict::several_causes;
+}
 
 bool Trial::names_something() const { return names_outright() || verdict == Verdict::named_set; }
 
@@ -130,23 +138,27 @@ bool Trial::names_wrongly() const {
 Outcome outcome_of(const std::string& kind, std::uint64_t seed, const Trial& t) {
   Outcome outcome{kind, seed, 0, 0.0, t.hidden, std::string(name(t.verdict)), {}, {}, {}};
   for (const Claim& claim : t.causes) outcome.named.push_back(name_of(claim));
-  const bool leads = !t.causes.empty() && !t.hidden.empty() && t.causes.front().means(t.hidden.front());
+  const bool leads =
+      !t.causes.empty() && !t.hidden.empty() && t.causes.front().means(t.hidden.front());
   const bool has_pattern = t.unknown_probability > 0.5;
   outcome.add("leads", leads);
   outcome.add("alone", t.verdict == Verdict::named && leads);
   outcome.add("held", !t.hidden.empty() && t.is_named(t.hidden.front()));
-  outcome.add("all", !t.hidden.empty() && std::ranges::all_of(t.hidden, [&](const auto& id) { return t.is_named(id); }));
+  outcome.add("all", !t.hidden.empty() && std::ranges::all_of(t.hidden, [&](const auto& id) {
+                return t.is_named(id);
+              }));
   outcome.add("outright", t.names_outright());
   outcome.add("nothing_false", !t.names_wrongly());
-  outcome.add("no_false_claim", !t.names_wrongly() || t.causes.empty() || t.causes.front().probability < kClaim);
+  outcome.add("no_false_claim",
+              !t.names_wrongly() || t.causes.empty() || t.causes.front().probability < kClaim);
   outcome.add("no_name", !t.names_something());
   outcome.add("pattern", has_pattern);
   outcome.add("no_pattern", !has_pattern);
   outcome.add("refused", t.verdict == Verdict::model_discrepancy);
   outcome.add("only_bad_points", t.verdict == Verdict::outliers);
   outcome.add("bad_found", std::ranges::all_of(t.hidden_bad_points, [&](std::size_t i) {
-    return std::ranges::find(t.bad_points, i) != t.bad_points.end();
-  }));
+                return std::ranges::find(t.bad_points, i) != t.bad_points.end();
+              }));
   outcome.add("no_more_bad", t.bad_points.size() <= t.hidden_bad_points.size());
   return outcome;
 }

@@ -64,8 +64,7 @@ struct Trial {
 [[nodiscard]] Outcome outcome_of(const std::string& kind, std::uint64_t seed, const Trial& trial);
 
 /// Failed if the diagnosis fails.
-[[nodiscard]] Outcome run_trial(const std::string& kind,
-                                const TrialOptions& options,
+[[nodiscard]] Outcome run_trial(const std::string& kind, const TrialOptions& options,
                                 std::uint64_t seed);
 
 /// A diagnosis without stability, held-out errors and next measurements.

@@ -27,8 +27,8 @@ bool hangs_on_visits(const generator::SealedSet& set) {
   using generator::Cause;
   const auto& hidden = set.machine.hidden();
   return std::any_of(hidden.begin(), hidden.end(), [](const Hidden& h) {
-    return h.cause == Cause::drift || h.cause == Cause::tooth_skip || h.cause == Cause::zero_shift ||
-           h.cause == Cause::direction_hysteresis;
+    return h.cause == Cause::drift || h.cause == Cause::tooth_skip ||
+           h.cause == Cause::zero_shift || h.cause == Cause::direction_hysteresis;
   });
 }
 
@@ -77,9 +77,8 @@ double tool_rms_mm(const Fresh& fresh, const std::vector<Lengths>& predicted) {
   return std::sqrt(sum / static_cast<double>(predicted.size()));
 }
 
-std::optional<double> reply(const generator::SealedSet& set,
-                           const Fresh& fresh,
-                           std::span<const Hidden> effects) {
+std::optional<double> reply(const generator::SealedSet& set, const Fresh& fresh,
+                            std::span<const Hidden> effects) {
   generator::Record record;
   record.notes = set.notes;
   record.noise = set.noise;
@@ -102,8 +101,8 @@ std::optional<double> reply(const generator::SealedSet& set,
 // for the session's own visits: no map includes them.
 model::Machine extended(const grid::diagnosis::Diagnosis& found, bool same_visits) {
   model::Machine machine = found.extended_machine;
-  machine.effects.insert(
-      machine.effects.end(), found.data_corrections.begin(), found.data_corrections.end());
+  machine.effects.insert(machine.effects.end(), found.data_corrections.begin(),
+                         found.data_corrections.end());
   std::erase_if(machine.effects, [&](const model::AppliedEffect& e) {
     const auto* effect = model::effects::find_effect(e.effect);
     return e.effect == "link_miscount" ||
