@@ -3,12 +3,11 @@
 /// The index of a chain in a pair of rows or numbers: left, right.
 #pragma once
 
-#include <Eigen/Core>
-
+#include "grid/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
 
-constexpr Eigen::Index row_of(model::Side side) { return side == model::Side::left ? 0 : 1; }
+constexpr Index row_of(model::Side side) { return side == model::Side::left ? 0 : 1; }
 
 }  // namespace chaintrue::grid

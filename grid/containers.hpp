@@ -11,7 +11,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
@@ -20,6 +19,7 @@
 #include <numeric>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
@@ -27,9 +27,7 @@ namespace chaintrue::grid {
 constexpr std::size_t as_size(std::integral auto position) {
   return static_cast<std::size_t>(position);
 }
-constexpr Eigen::Index as_index(std::integral auto position) {
-  return static_cast<Eigen::Index>(position);
-}
+constexpr Index as_index(std::integral auto position) { return static_cast<Index>(position); }
 
 constexpr double as_double(std::integral auto count) { return static_cast<double>(count); }
 

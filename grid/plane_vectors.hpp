@@ -9,24 +9,24 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 
+#include "grid/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
 
 template <class Position>
-Eigen::Vector2d vector_of(const Position& at) {
+Vector2d vector_of(const Position& at) {
   return {at.x_mm, at.y_mm};
 }
-inline Eigen::Vector2d vector_of(const model::ChainLengths& lengths) {
+inline Vector2d vector_of(const model::ChainLengths& lengths) {
   return {lengths.left_mm, lengths.right_mm};
 }
 
 /// `a` less `b`.
 template <class A, class B>
-Eigen::Vector2d difference(const A& a, const B& b) {
+Vector2d difference(const A& a, const B& b) {
   return vector_of(a) - vector_of(b);
 }
 template <class A, class B>

@@ -42,17 +42,17 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squares / as_double(values.size()));
 }
 
-double rms(const std::vector<Eigen::Vector2d>& values) {
+double rms(const std::vector<Vector2d>& values) {
   if (values.empty()) return 0.0;
   double squares = 0.0;
-  for (const Eigen::Vector2d& value : values) squares += value.squaredNorm();
+  for (const Vector2d& value : values) squares += value.squaredNorm();
   return std::sqrt(squares / (2.0 * as_double(values.size())));
 }
 
-double rms_length(const std::vector<Eigen::Vector2d>& values) {
+double rms_length(const std::vector<Vector2d>& values) {
   if (values.empty()) return 0.0;
   double squares = 0.0;
-  for (const Eigen::Vector2d& value : values) squares += value.squaredNorm();
+  for (const Vector2d& value : values) squares += value.squaredNorm();
   return std::sqrt(squares / as_double(values.size()));
 }
 

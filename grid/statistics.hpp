@@ -3,11 +3,12 @@
 /// Medians, root mean squares, sums of exponentials, normal tails and the noise of rounding.
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
+
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -18,10 +19,10 @@ double median(std::vector<double> values);
 /// sqrt(mean(v^2)); 0 for no values.
 double rms(const std::vector<double>& values);
 /// Over all components; 0 for no values.
-double rms(const std::vector<Eigen::Vector2d>& values);
+double rms(const std::vector<Vector2d>& values);
 
 /// For the vectors' lengths; 0 for no values.
-double rms_length(const std::vector<Eigen::Vector2d>& values);
+double rms_length(const std::vector<Vector2d>& values);
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// log(0).

@@ -8,6 +8,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -61,7 +62,7 @@ observation::AtHole hole_at(const model::BeltMachine& in_force, model::BedPoint 
   const auto paid_out =
       model::make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
   constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
-  return {paid_out ? paid_out->lengths_mm : Eigen::VectorXd::Constant(4, kNoLength),
+  return {paid_out ? paid_out->lengths_mm : VectorXd::Constant(4, kNoLength),
           {true, true, false, false},
           at};
 }
@@ -145,7 +146,7 @@ std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<Anc
       readings_of(belts, fit->counting, fit->residual_sigma_mm));
   estimation::EstimationInput input = anchor_input(belts, fit->counting, fit->state.anchors);
   input.mechanism = mechanism_at(belts, fit->state);
-  input.fixed_weights = Eigen::VectorXd::Ones(std::ssize(readings->units()));
+  input.fixed_weights = VectorXd::Ones(std::ssize(readings->units()));
   input.observations = {readings};
   input.noise.knowledge = interp::NoiseKnowledge::exact;
   const auto estimate = estimation::estimate(input);
@@ -215,7 +216,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
     place.lengths_mm.resize(std::ssize(kBelts));
     const bool all_count = readings_counting(counting.at(k)) == 4;
     for (const Belt belt : kBelts) {
-      place.lengths_mm[static_cast<Eigen::Index>(belt)] = point.lengths_mm[belt];
+      place.lengths_mm[static_cast<Index>(belt)] = point.lengths_mm[belt];
       if (!all_count) place.counting.push_back(counting[k][belt]);
       place.visit.pulled.push_back(is_pulled(point, belt));
     }
@@ -235,7 +236,7 @@ std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
                                                      const FrameState& state) {
   model::BeltMachine unknown = belts.machine;
   unknown.anchors_known = false;
-  Eigen::VectorXd values = state.anchors;
+  VectorXd values = state.anchors;
   if (belts.distances.empty()) return model::make_belt_mechanism(unknown)->with_values(values);
   values.conservativeResize(kAnchorUnknowns + 1);
   values[kAnchorUnknowns] = state.log_scale;
@@ -264,7 +265,7 @@ estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const Count
       std::make_shared<const observation::BeltLengthReadings>(readings_of(untaped, counting));
   estimation::EstimationInput input;
   input.mechanism = mechanism_at(untaped, {start, 0.0, {}});
-  input.fixed_weights = Eigen::VectorXd::Ones(std::ssize(readings->units()));
+  input.fixed_weights = VectorXd::Ones(std::ssize(readings->units()));
   input.observations.push_back(std::move(readings));
   input.noise.knowledge = interp::NoiseKnowledge::unknown;
   input.noise_prior = interp::SmoothingPrior::none;

@@ -26,21 +26,21 @@ model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& 
 
 bool are_on_a_line(const std::vector<model::FramePoint>& places) {
   constexpr double kLineMm = 50.0;
-  Eigen::Matrix2Xd at(2, std::ssize(places));
+  Matrix2Xd at(2, std::ssize(places));
   for (std::size_t k = 0; k < places.size(); ++k) {
     at.col(as_index(k)) = vector_of(places[k]);
   }
   at.colwise() -= at.rowwise().mean().eval();
-  const Eigen::Matrix2d square = at * at.transpose();
+  const Matrix2d square = at * at.transpose();
   // Eigenvector of the smaller eigenvalue of a symmetric 2 x 2 matrix.
   const double angle = 0.5 * std::atan2(2.0 * square(0, 1), square(0, 0) - square(1, 1));
-  const Eigen::RowVector2d across(-std::sin(angle), std::cos(angle));
-  const Eigen::RowVectorXd widths = across * at;
+  const RowVector2d across(-std::sin(angle), std::cos(angle));
+  const RowVectorXd widths = across * at;
   return widths.maxCoeff() - widths.minCoeff() < kLineMm;
 }
 
-Eigen::Index checks_of(const Counting& counting) {
-  Eigen::Index checks = -kAnchorUnknowns;
+Index checks_of(const Counting& counting) {
+  Index checks = -kAnchorUnknowns;
   for (const auto& counts : counting) checks += std::max(readings_counting(counts) - 2, 0);
   return checks;
 }

@@ -4,13 +4,13 @@
 /// grid/belts and what reads its fits.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <string_view>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -20,7 +20,7 @@ using Counting = std::vector<model::PerBelt<bool>>;
 /// All four belts.
 inline constexpr model::PerBelt<bool> kAllBelts{true, true, true, true};
 /// tl x, tl y, tr x, tr y, br x.
-inline constexpr Eigen::Index kAnchorUnknowns = 5;
+inline constexpr Index kAnchorUnknowns = 5;
 using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;
 
 /// Their names in files.
@@ -40,7 +40,7 @@ struct AnchorFit {
   FrameState state;
   Counting counting;
   double residual_sigma_mm = 0.0;
-  Eigen::Index checks = 0;
+  Index checks = 0;
   /// Converged, with right anchors right of the left ones and upper above lower ones.
   bool is_sound = false;
 };
@@ -49,8 +49,8 @@ AnchorVector anchors_of(const model::BeltMachine& machine);
 [[nodiscard]] model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a);
 
 /// The row of a point's belt among all.
-inline Eigen::Index row_of(std::size_t point, model::Belt belt) {
-  return 4 * as_index(point) + static_cast<Eigen::Index>(belt);
+inline Index row_of(std::size_t point, model::Belt belt) {
+  return 4 * as_index(point) + static_cast<Index>(belt);
 }
 inline int readings_counting(const model::PerBelt<bool>& counting) {
   return counting.tl + counting.tr + counting.bl + counting.br;
@@ -58,6 +58,6 @@ inline int readings_counting(const model::PerBelt<bool>& counting) {
 /// In a strip no wider than 50 mm: the anchors could lie on either side of it. \pre one place.
 bool are_on_a_line(const std::vector<model::FramePoint>& places);
 /// Counted readings minus two per place minus five.
-Eigen::Index checks_of(const Counting& counting);
+Index checks_of(const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

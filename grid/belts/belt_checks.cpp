@@ -10,6 +10,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/robust_trend.hpp"
@@ -90,14 +91,14 @@ struct Frame {
 };
 
 double far_from_commands(const MeasuredBelts& belts, const std::vector<model::FramePoint>& places) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2d> off;
+  Vector2d sum = Vector2d::Zero();
+  std::vector<Vector2d> off;
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (!belts.points[k].commanded) continue;
     off.push_back(difference(places[k], *belts.points[k].commanded));
     sum += off.back();
   }
-  for (Eigen::Vector2d& one : off) one -= sum / as_double(off.size());
+  for (Vector2d& one : off) one -= sum / as_double(off.size());
   return rms_length(off);
 }
 
@@ -236,8 +237,8 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
 namespace {
 
 /// Where a tape ends, in the frame that the lengths alone make.
-std::optional<Eigen::Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
-                                      const belts::AnchorFit& frame) {
+std::optional<Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
+                               const belts::AnchorFit& frame) {
   if (const auto* index = std::get_if<std::size_t>(&end)) {
     if (*index >= frame.state.places.size()) return std::nullopt;
     return vector_of(frame.state.places[*index]);
@@ -249,7 +250,7 @@ std::optional<Eigen::Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& b
   if (!belts.machine.anchors_known) return std::nullopt;
   const model::FramePoint centre = model::centre_of(belts.machine);
   const model::BedPoint at = std::get<CutHole>(end).commanded;
-  return Eigen::Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
+  return Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
 }
 
 /// Each distance as the frame predicts it; empty if an end has no position.

@@ -23,7 +23,7 @@ namespace {
 /// Writes the rows of a set from `row` on, after those of the sets before it; false if the machine
 /// cannot hold the tool at one of its holes. `origin`: where the first set's commands count from.
 bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor, FramePoint origin,
-             Eigen::Index row, TapedRows& all) {
+             Index row, TapedRows& all) {
   if (!holes.machine.anchors_known) {
     throw precondition("{} holes of a machine whose anchors in force are not known",
                        holes.set.holes.size());
@@ -31,15 +31,15 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
   const auto mechanism = model::make_belt_mechanism(holes.machine)->with_values(anchors);
   const FramePoint centre = model::centre_of(holes.machine);
   const auto count = std::ssize(holes.set.holes);
-  const Eigen::Index first = 2 * std::ssize(all.marks);
+  const Index first = 2 * std::ssize(all.marks);
   std::vector<model::MarkPoint> marks;
-  Eigen::MatrixXd marks_by_frame = Eigen::MatrixXd::Zero(2 * count, kFrameUnknowns);
-  Eigen::MatrixXd laid(2 * count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
+  MatrixXd marks_by_frame = MatrixXd::Zero(2 * count, kFrameUnknowns);
+  MatrixXd laid(2 * count, 3);
+  for (Index i = 0; i < count; ++i) {
     const auto place = observation::placed_hole(
         *mechanism, hole_at(holes.machine, holes.set.holes[as_size(i)].commanded));
     if (!place) return false;
-    const Eigen::Vector2d mark = factor * (place->at - vector_of(centre));
+    const Vector2d mark = factor * (place->at - vector_of(centre));
     marks.push_back({mark.x(), mark.y()});
     all.marks.push_back(
         {factor * (place->at.x() - origin.x_mm), factor * (place->at.y() - origin.y_mm)});
@@ -48,12 +48,12 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
     laid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(marks.back());
   }
   const observation::DistanceGeometry geometry = observation::distance_geometry(holes.set, marks);
-  const Eigen::Index own = geometry.predicted_mm.size();
-  for (Eigen::Index k = 0; k < own; ++k) {
+  const Index own = geometry.predicted_mm.size();
+  for (Index k = 0; k < own; ++k) {
     all.residual_mm[row + k] =
         length_of(holes.set, holes.set.distances[as_size(k)]) - geometry.predicted_mm[k];
   }
-  const Eigen::MatrixXd by_sheet = geometry.by_mark * laid;
+  const MatrixXd by_sheet = geometry.by_mark * laid;
   all.by_mark.block(row, first, own, 2 * count) = geometry.by_mark;
   all.by_frame.middleRows(row, own) = geometry.by_mark * marks_by_frame;
   all.by_sheet.middleRows(row, own) = by_sheet;
@@ -71,21 +71,21 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
 
 std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const AnchorVector& anchors,
                                     double log_scale) {
-  Eigen::Index distances = 0;
-  Eigen::Index holes = 0;
+  Index distances = 0;
+  Index holes = 0;
   for (const BeltHoles& set : sets) {
     distances += std::ssize(set.set.distances);
     holes += std::ssize(set.set.holes);
   }
-  TapedRows all{Eigen::VectorXd(distances),
-                Eigen::MatrixXd(distances, kFrameUnknowns),
-                Eigen::MatrixXd::Zero(distances, 2 * holes),
-                Eigen::MatrixXd(distances, 3),
+  TapedRows all{VectorXd(distances),
+                MatrixXd(distances, kFrameUnknowns),
+                MatrixXd::Zero(distances, 2 * holes),
+                MatrixXd(distances, 3),
                 {},
-                Eigen::MatrixXd::Zero(distances, distances),
-                Eigen::MatrixXd::Zero(distances, distances)};
+                MatrixXd::Zero(distances, distances),
+                MatrixXd::Zero(distances, distances)};
   const FramePoint origin = model::centre_of(sets.front().machine);
-  Eigen::Index row = 0;
+  Index row = 0;
   for (const BeltHoles& set : sets) {
     if (!put_set(set, anchors, std::exp(log_scale), origin, row, all)) return std::nullopt;
     row += std::ssize(set.set.distances);
@@ -93,13 +93,13 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const An
   return all;
 }
 
-Eigen::MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
-                                 const std::vector<bool>& counting) {
-  Eigen::MatrixXd covariance = noise.factor * noise.factor * rows.noise_mm2 + rows.shared_mm2;
+MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
+                          const std::vector<bool>& counting) {
+  MatrixXd covariance = noise.factor * noise.factor * rows.noise_mm2 + rows.shared_mm2;
   if (noise.size_mm > 0.0) {
-    const Eigen::MatrixXd kernel = displacement_kernel(rows.marks, rows.marks, noise.reach_mm);
-    for (const Eigen::Index axis : {0, 1}) {
-      const Eigen::MatrixXd by_axis =
+    const MatrixXd kernel = displacement_kernel(rows.marks, rows.marks, noise.reach_mm);
+    for (const Index axis : {0, 1}) {
+      const MatrixXd by_axis =
           rows.by_mark(Eigen::all, Eigen::seq(axis, Eigen::last, Eigen::fix<2>));
       covariance += noise.size_mm * noise.size_mm * linear::carried(by_axis, kernel);
     }

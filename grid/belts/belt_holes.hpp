@@ -25,11 +25,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
 #include "grid/belts/anchor_fit.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid {
@@ -46,7 +46,7 @@ struct BeltHoles {
 namespace chaintrue::grid::belts {
 
 /// Anchors, then the logarithm of the scale.
-inline constexpr Eigen::Index kFrameUnknowns = kAnchorUnknowns + 1;
+inline constexpr Index kFrameUnknowns = kAnchorUnknowns + 1;
 
 /// Added to the variance of a rejected distance, mm^2: a sigma of ten metres, so that it has no
 /// weight.
@@ -54,13 +54,13 @@ inline constexpr double kRejectedMm2 = 1e8;
 
 /// The distances of all sets about a frame, one set after the other; mm.
 struct TapedRows {
-  Eigen::VectorXd residual_mm;  ///< n, taped (less the tape's zero offset) less predicted
-  Eigen::MatrixXd by_frame;     ///< n x 6, d(predicted)/d(a, s)
-  Eigen::MatrixXd by_mark;      ///< n x 2 N
-  Eigen::MatrixXd by_sheet;     ///< n x 3, by its own sheet's shift in x and y, and its turn
+  VectorXd residual_mm;  ///< n, taped (less the tape's zero offset) less predicted
+  MatrixXd by_frame;     ///< n x 6, d(predicted)/d(a, s)
+  MatrixXd by_mark;      ///< n x 2 N
+  MatrixXd by_sheet;     ///< n x 3, by its own sheet's shift in x and y, and its turn
   std::vector<model::MarkPoint> marks;  ///< of all holes, from where the first set's commands count
-  Eigen::MatrixXd noise_mm2;            ///< the factor of f^2 in (1)
-  Eigen::MatrixXd shared_mm2;           ///< of (1) what sizes, zeros and sheets share
+  MatrixXd noise_mm2;                   ///< the factor of f^2 in (1)
+  MatrixXd shared_mm2;                  ///< of (1) what sizes, zeros and sheets share
 };
 /// Empty if the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
 /// machine whose anchors in force are not known.
@@ -74,6 +74,6 @@ struct TapedNoise {
   double reach_mm = 1.0;
 };
 /// (1), with rejected distances given no weight.
-Eigen::MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
-                                 const std::vector<bool>& counting);
+MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
+                          const std::vector<bool>& counting);
 }  // namespace chaintrue::grid::belts

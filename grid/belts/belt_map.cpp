@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_mechanism.hpp"
@@ -35,19 +36,19 @@ tl::expected<FramePoint, BeltFailure> end_of_spans(const model::BeltMachine& mac
 }
 
 /// Anchors, logarithm of the scale, displacements.
-Eigen::VectorXd unknowns_of(const BeltsFit& fit, const HolesWithBelts* holes) {
+VectorXd unknowns_of(const BeltsFit& fit, const HolesWithBelts* holes) {
   const bool smooth = holes != nullptr && holes->displacement;
-  const Eigen::Index moved = smooth ? holes->displacement->at_mm.size() : 0;
-  Eigen::VectorXd unknowns(kFrameUnknowns + moved);
+  const Index moved = smooth ? holes->displacement->at_mm.size() : 0;
+  VectorXd unknowns(kFrameUnknowns + moved);
   unknowns.head<kAnchorUnknowns>() = belts::anchors_of(fit.machine);
   unknowns[kAnchorUnknowns] = fit.scale ? std::log(fit.scale->factor) : 0.0;
   if (smooth) unknowns.tail(moved) = holes->displacement->at_mm;
   return unknowns;
 }
 
-Eigen::MatrixXd covariance_of(const BeltsFit& fit, const HolesWithBelts* holes) {
+MatrixXd covariance_of(const BeltsFit& fit, const HolesWithBelts* holes) {
   if (holes != nullptr) return holes->covariance;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
+  MatrixXd covariance = MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
   covariance.topLeftCorner<kAnchorUnknowns, kAnchorUnknowns>() = fit.covariance_mm2;
   if (fit.scale) {
     covariance(kAnchorUnknowns, kAnchorUnknowns) =
@@ -88,7 +89,7 @@ class Placing {
   }
 
   /// `lengths` is what the mechanism's lengths count.
-  PlacedMechanism at(const Eigen::VectorXd& unknowns, model::BeltLengths lengths) const {
+  PlacedMechanism at(const VectorXd& unknowns, model::BeltLengths lengths) const {
     model::BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
     const FramePoint centre = model::centre_of(in_force_);
     SheetInFrame sheet{{}, std::exp(unknowns[kAnchorUnknowns]), {centre.x_mm, centre.y_mm}};
@@ -152,18 +153,18 @@ class Placing {
   model::BeltMachine in_force_;
   std::vector<Reference> references_;
   std::optional<DisplacementParts> displacement_;
-  std::optional<Eigen::Vector3d> by_edges_;
+  std::optional<Vector3d> by_edges_;
 };
 
 MechanismMap map_of(const BeltsFit& fit, const HolesWithBelts* holes,
                     const model::BeltMachine& in_force) {
   using model::BeltLengths;
   const Placing placing(fit, holes, in_force);
-  const Eigen::VectorXd unknowns = unknowns_of(fit, holes);
+  const VectorXd unknowns = unknowns_of(fit, holes);
   // Level spans: a belt's slant carries no information about an error.
-  MechanismSpread spread = spread_about(
-      unknowns, covariance_of(fit, holes),
-      [&](const Eigen::VectorXd& values) { return placing.at(values, BeltLengths::span); });
+  MechanismSpread spread =
+      spread_about(unknowns, covariance_of(fit, holes),
+                   [&](const VectorXd& values) { return placing.at(values, BeltLengths::span); });
   return {placing.at(unknowns, BeltLengths::belt), std::move(spread),
           MeasuredArea(placing.measured(), domain_of(in_force))};
 }
@@ -176,7 +177,7 @@ model::BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes
 
 model::BeltMachine machine_in_force(const BeltsFit& fit) {
   belts::AnchorVector stated;
-  for (Eigen::Index i = 0; i < kAnchorUnknowns; ++i) {
+  for (Index i = 0; i < kAnchorUnknowns; ++i) {
     const auto& one = fit.coordinates[as_size(i)].stated_mm;
     if (!one) throw precondition("anchors in force that nobody gave");
     stated[i] = *one;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -28,7 +27,7 @@ namespace {
 /// The prior without the holes: x_b and S_b (6 x 6).
 struct KnownFrame {
   FrameState state;
-  Eigen::MatrixXd covariance;
+  MatrixXd covariance;
 };
 
 /// The state of the fit. The places of belts' points are not moved.
@@ -41,31 +40,28 @@ struct TapedState {
 
 /// (2) and (3) about a state.
 struct TapedMarginal {
-  Eigen::VectorXd residual_mm;  ///< r_b
-  Eigen::MatrixXd inverse;      ///< V^-1
+  VectorXd residual_mm;  ///< r_b
+  MatrixXd inverse;      ///< V^-1
   double log_likelihood = 0.0;
   std::vector<bool> counting;
 
-  double left_out_mm(Eigen::Index k) const {
-    return (inverse.row(k) * residual_mm)(0) / inverse(k, k);
-  }
+  double left_out_mm(Index k) const { return (inverse.row(k) * residual_mm)(0) / inverse(k, k); }
   /// The tape's variance plus that of the prediction, without what was added for rejection.
-  double left_out_sigma_mm(Eigen::Index k) const {
+  double left_out_sigma_mm(Index k) const {
     const double added = counting[as_size(k)] ? 0.0 : kRejectedMm2;
     return std::sqrt(1.0 / inverse(k, k) - added);
   }
 };
 
 /// Anchors and the logarithm of the scale.
-Eigen::VectorXd frame_vector(const FrameState& state) {
-  Eigen::VectorXd x(kFrameUnknowns);
+VectorXd frame_vector(const FrameState& state) {
+  VectorXd x(kFrameUnknowns);
   x << state.anchors, state.log_scale;
   return x;
 }
 
 /// r_b.
-Eigen::VectorXd about_the_known(const KnownFrame& known, const TapedRows& rows,
-                                const FrameState& state) {
+VectorXd about_the_known(const KnownFrame& known, const TapedRows& rows, const FrameState& state) {
   return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(known.state));
 }
 
@@ -161,12 +157,12 @@ bool converge(const KnownFrame& known, const std::vector<BeltHoles>& sets, Taped
   constexpr int kMostPasses = 20;
   // Step of the anchors, mm: a thousandth of the best tape's accuracy.
   constexpr double kConvergedMm = 1e-5;
-  const Eigen::MatrixXd covariance = taped_covariance(state.rows, state.noise, state.counting);
+  const MatrixXd covariance = taped_covariance(state.rows, state.noise, state.counting);
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const Eigen::MatrixXd& by_frame = state.rows.by_frame;
-    const Eigen::MatrixXd gain = linear::product(known.covariance, linear::transposed(by_frame));
+    const MatrixXd& by_frame = state.rows.by_frame;
+    const MatrixXd gain = linear::product(known.covariance, linear::transposed(by_frame));
     const linear::PivotedCholesky whole(covariance + linear::product(by_frame, gain));
-    const Eigen::VectorXd x =
+    const VectorXd x =
         frame_vector(known.state) +
         linear::product(gain, whole.solve(about_the_known(known, state.rows, state.frame)));
     const double moved_mm =
@@ -233,7 +229,7 @@ using belts::TapedState;
 
 /// `frame` is the belts' own fit, and `fit` its report; both move to the state.
 void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const TapedState& state,
-                const Eigen::MatrixXd& covariance, belts::AnchorFit frame, BeltsFit& fit) {
+                const MatrixXd& covariance, belts::AnchorFit frame, BeltsFit& fit) {
   fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
   for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
@@ -271,32 +267,31 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
 }
 
 /// Covariance of x and, if present, of the displacement at its places; and the displacement.
-Eigen::MatrixXd posterior(const KnownFrame& known, const TapedState& state,
-                          std::optional<DisplacementParts>& displacement) {
-  const Eigen::MatrixXd& g = state.rows.by_mark;
+MatrixXd posterior(const KnownFrame& known, const TapedState& state,
+                   std::optional<DisplacementParts>& displacement) {
+  const MatrixXd& g = state.rows.by_mark;
   const bool smooth = state.noise.size_mm > 0.0;
-  const Eigen::Index moved = smooth ? g.cols() : 0;
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kFrameUnknowns + moved, kFrameUnknowns + moved);
+  const Index moved = smooth ? g.cols() : 0;
+  MatrixXd prior = MatrixXd::Zero(kFrameUnknowns + moved, kFrameUnknowns + moved);
   prior.topLeftCorner<kFrameUnknowns, kFrameUnknowns>() = known.covariance;
-  Eigen::MatrixXd by_unknown(g.rows(), kFrameUnknowns + moved);
+  MatrixXd by_unknown(g.rows(), kFrameUnknowns + moved);
   by_unknown.leftCols<kFrameUnknowns>() = state.rows.by_frame;
   if (smooth) {
-    const Eigen::MatrixXd kernel =
+    const MatrixXd kernel =
         displacement_kernel(state.rows.marks, state.rows.marks, state.noise.reach_mm);
-    for (Eigen::Index i = 0; i < kernel.rows(); ++i) {
-      for (Eigen::Index j = 0; j < kernel.cols(); ++j) {
+    for (Index i = 0; i < kernel.rows(); ++i) {
+      for (Index j = 0; j < kernel.cols(); ++j) {
         const double shared = state.noise.size_mm * state.noise.size_mm * kernel(i, j);
         prior.block<2, 2>(kFrameUnknowns + 2 * i, kFrameUnknowns + 2 * j) =
-            shared * Eigen::Matrix2d::Identity();
+            shared * Matrix2d::Identity();
       }
     }
     by_unknown.rightCols(moved) = g;
   }
   const TapedMarginal now = marginal(known, state);
-  const Eigen::MatrixXd cross = linear::product(prior, linear::transposed(by_unknown));
+  const MatrixXd cross = linear::product(prior, linear::transposed(by_unknown));
   if (smooth) {
-    const Eigen::VectorXd mean =
-        linear::product(cross, linear::product(now.inverse, now.residual_mm));
+    const VectorXd mean = linear::product(cross, linear::product(now.inverse, now.residual_mm));
     displacement = DisplacementParts{state.noise.size_mm, state.noise.reach_mm, state.rows.marks,
                                      mean.tail(moved)};
   }
@@ -304,13 +299,13 @@ Eigen::MatrixXd posterior(const KnownFrame& known, const TapedState& state,
 }
 
 /// Placement of the first set's sheet by its edges.
-std::optional<Eigen::Vector3d> sheet_by_edges(const TapedState& state, const MeasuredHoles& first) {
+std::optional<Vector3d> sheet_by_edges(const TapedState& state, const MeasuredHoles& first) {
   const observation::SheetPrior measured = observation::sheet_measured(first);
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
-  const Eigen::MatrixXd c = belts::taped_covariance(state.rows, state.noise, state.counting);
+  const MatrixXd c = belts::taped_covariance(state.rows, state.noise, state.counting);
   const auto own = std::ssize(first.distances);
-  const Eigen::VectorXd weighed = linear::Cholesky(c).solve(state.rows.residual_mm).head(own);
-  const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
+  const VectorXd weighed = linear::Cholesky(c).solve(state.rows.residual_mm).head(own);
+  const Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
   return observation::kSheetByEdges.sigma().cwiseAbs2().cwiseProduct(along);
 }
 
@@ -318,7 +313,7 @@ void fill_distances(const KnownFrame& known, const std::vector<BeltHoles>& sets,
                     const TapedState& state, HolesWithBelts& found) {
   const TapedMarginal now = marginal(known, state);
   std::vector<double> left_out;
-  Eigen::Index row = 0;
+  Index row = 0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     for (const HoleDistance& distance : sets[s].set.distances) {
       BeltTapedDistance one{s,
@@ -359,7 +354,7 @@ std::optional<BeltsFitFailure> refused(const MeasuredBelts& measured,
 
 /// The anchors from the belts alone; a scale that they leave open has its prior.
 KnownFrame known_frame(const BeltsByThemselves& alone) {
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
+  MatrixXd covariance = MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
   covariance(kAnchorUnknowns, kAnchorUnknowns) = kBeltScaleSigma * kBeltScaleSigma;
   covariance.topLeftCorner(alone.covariance.rows(), alone.covariance.cols()) = alone.covariance;
   return {alone.frame.state, std::move(covariance)};
@@ -371,8 +366,8 @@ tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const Measure
   if (measured.points.empty()) {
     BeltsByThemselves stated;
     stated.frame.state.anchors = belts::anchors_of(measured.machine);
-    stated.covariance = kStatedAnchorMm * kStatedAnchorMm *
-                        Eigen::MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns);
+    stated.covariance =
+        kStatedAnchorMm * kStatedAnchorMm * MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns);
     stated.fit.machine = measured.machine;
     for (std::size_t i = 0; i < stated.fit.coordinates.size(); ++i) {
       stated.fit.coordinates[i].name = belts::kCoordinateNames[i];
@@ -383,7 +378,7 @@ tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const Measure
   auto fit = fit_belts(measured);
   if (!fit) return tl::unexpected(fit.error());
   auto frame = belts::fit_anchors_robustly(measured);
-  Eigen::MatrixXd covariance = belts::FitDiagnostics(measured, *frame).covariance();
+  MatrixXd covariance = belts::FitDiagnostics(measured, *frame).covariance();
   return BeltsByThemselves{*std::move(fit), *std::move(frame), std::move(covariance)};
 }
 

@@ -39,6 +39,7 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belt_holes.hpp"
 #include "grid/belts/belts_fit.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/tool_displacement.hpp"
 
 namespace chaintrue::grid {
@@ -81,10 +82,10 @@ struct HolesWithBelts {
   double noise_factor = 1.0;  ///< relative to the stated noise of tape and holes
   std::optional<DisplacementParts> displacement;
   /// Covariance of x, and of the displacement at its places.
-  Eigen::MatrixXd covariance;
+  MatrixXd covariance;
   /// The sheet's placement by its edges; absent if the holes determine it.
-  std::optional<Eigen::Vector3d> sheet;  ///< x_mm, y_mm, rotation_rad
-  double left_out_rms_mm = 0.0;          ///< of distances that were not rejected
+  std::optional<Vector3d> sheet;  ///< x_mm, y_mm, rotation_rad
+  double left_out_rms_mm = 0.0;   ///< of distances that were not rejected
 };
 
 struct BeltsAndHolesFit {
@@ -96,8 +97,7 @@ struct BeltsAndHolesFit {
 struct BeltsByThemselves {
   BeltsFit fit;
   belts::AnchorFit frame;
-  Eigen::MatrixXd
-      covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
+  MatrixXd covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
 };
 /// Allows for errors of readings only; diagnosis/anchors_with_causes.hpp also allows for causes. Without points, the anchors of
 /// the machine, each with kStatedAnchorMm.

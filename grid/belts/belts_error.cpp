@@ -5,6 +5,7 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/controller_error.hpp"
 #include "model/belts/belt_controller.hpp"
 
@@ -46,7 +47,7 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
   const auto displacement = holes != nullptr && holes->displacement
                                 ? std::optional<ToolDisplacement>(*holes->displacement)
                                 : std::nullopt;
-  Eigen::VectorXd left_mm = Eigen::VectorXd::Zero(2 * std::ssize(places));
+  VectorXd left_mm = VectorXd::Zero(2 * std::ssize(places));
   double worst_mm = -1.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const model::BedPoint at = places[i].commanded;

@@ -73,7 +73,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
                               "anchors: are they from one frame, in mm, each under its own belt?",
                               frame->residual_sigma_mm));
   }
-  const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();
+  const VectorXd variance = view.covariance().diagonal().head<5>();
   if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
       variance.maxCoeff() > kLostAnchorMm * kLostAnchorMm ||
       belts::are_on_a_line(frame->state.places)) {

@@ -28,7 +28,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <map>
 #include <optional>
@@ -37,6 +36,7 @@
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
+#include "grid/eigen.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {
@@ -67,7 +67,7 @@ struct BeltResidual {
 
 struct FittedPlace {
   model::FramePoint at;
-  Eigen::Matrix2d covariance_mm2 = Eigen::Matrix2d::Zero();
+  Matrix2d covariance_mm2 = Matrix2d::Zero();
   model::PerBelt<BeltResidual> belts;
 };
 

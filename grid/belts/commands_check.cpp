@@ -6,6 +6,7 @@
 
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
@@ -101,7 +102,7 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
   const double upper_mm = against && against->places >= kFewestBeltPoints ? against->upper_mm : 0.0;
   const double far_mm = upper_mm > kUpperMm ? kFarWithCommandsMm : kFarMm;
   std::optional<OtherFrame> found;
-  for (Eigen::Index i = 0; i < belts::kAnchorUnknowns; ++i) {
+  for (Index i = 0; i < belts::kAnchorUnknowns; ++i) {
     const double difference_mm = std::abs(frame.state.anchors[i] - stated[i]);
     const double variance = view.covariance()(i, i);
     if (!(variance > 0.0) || difference_mm < far_mm ||

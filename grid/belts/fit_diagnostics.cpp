@@ -23,7 +23,7 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
     for (const model::Belt belt : model::kBelts) {
       const auto reading = model::reading_at(machine, belt, state.places[k]);
       if (!reading) continue;
-      const Eigen::Index row = row_of(k, belt);
+      const Index row = row_of(k, belt);
       lines.residual_mm[row] = belts.points[k].lengths_mm[belt] - reading->length_mm;
       lines.by_place.row(row) = reading->by_place;
     }
@@ -35,9 +35,9 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     : frame_(frame), mechanism_(mechanism_at(belts, frame.state)), slots_(belts.points.size()) {
   const auto readings = readings_of(belts, frame_.counting, frame_.residual_sigma_mm);
   const observation::View view(mechanism_);
-  const Eigen::Index unknowns = mechanism_->values().size();
+  const Index unknowns = mechanism_->values().size();
   equations_ = {reading_lines(belts, frame_.state), {}};
-  precision_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  precision_ = MatrixXd::Zero(unknowns, unknowns);
   for (const auto& own : readings.blocks()) {
     auto line = readings.block_line(view, own, true);
     if (!line) {
@@ -46,8 +46,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     }
     line->weight /= frame_.residual_sigma_mm * frame_.residual_sigma_mm;
     Block block{*std::move(line), {}, {}, {}, !own.distances.empty()};
-    const Eigen::MatrixXd weighed =
-        block.line.by_position.transpose() * block.line.weight.asDiagonal();
+    const MatrixXd weighed = block.line.by_position.transpose() * block.line.weight.asDiagonal();
     block.inverse = linear::Cholesky(linear::product(weighed, block.line.by_position)).inverse();
     block.by_unknown =
         linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
@@ -74,15 +73,15 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
   }
 }
 
-Eigen::Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
-  if (!slots_[point]) return Eigen::Matrix2d::Zero();
+Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
+  if (!slots_[point]) return Matrix2d::Zero();
   const Block& block = blocks_[slots_[point]->block];
-  const Eigen::Index at = 2 * slots_[point]->place;
-  const Eigen::Matrix2Xd gain = block.by_unknown.middleRows<2>(at);
+  const Index at = 2 * slots_[point]->place;
+  const Matrix2Xd gain = block.by_unknown.middleRows<2>(at);
   return block.inverse.block<2, 2>(at, at) + gain * covariance_ * gain.transpose();
 }
 
-Eigen::VectorXd FitDiagnostics::influence(std::size_t point, model::Belt belt) const {
+VectorXd FitDiagnostics::influence(std::size_t point, model::Belt belt) const {
   const double weight = 1.0 / (frame_.residual_sigma_mm * frame_.residual_sigma_mm);
   const Slot& slot = slots_[point].value();
   return weight * (covariance_ * blocks_[slot.block].left.row(slot.row(belt)).transpose());
@@ -97,8 +96,8 @@ BeltResidual FitDiagnostics::residual(std::size_t point, model::Belt belt) const
   if (!slots_[point]) return result;
   const double s2 = frame_.residual_sigma_mm * frame_.residual_sigma_mm;
   const Block& block = blocks_[slots_[point]->block];
-  const Eigen::Index row = slots_[point]->row(belt);
-  const Eigen::VectorXd j = block.line.by_position.row(row), x = block.left.row(row);
+  const Index row = slots_[point]->row(belt);
+  const VectorXd j = block.line.by_position.row(row), x = block.left.row(row);
   const double h = (j.dot(block.inverse * j) + x.dot(covariance_ * x)) / s2;
   const auto n = as_double(frame_.checks);
   if (!result.counts) {
@@ -117,8 +116,8 @@ std::optional<FitDiagnostics::Expected> FitDiagnostics::expected(
     const MeasuredBelts& belts, const BeltDistance& distance) const {
   const auto line = distance_at(belts, *mechanism_, frame_.state, distance);
   if (!line) return std::nullopt;
-  Eigen::VectorXd by_unknown = line->by_parameter.transpose();
-  std::vector<std::pair<Slot, Eigen::RowVector2d>> ends;
+  VectorXd by_unknown = line->by_parameter.transpose();
+  std::vector<std::pair<Slot, RowVector2d>> ends;
   for (std::size_t e = 0; e < 2; ++e) {
     const auto* point = std::get_if<std::size_t>(e == 0 ? &distance.from : &distance.to);
     if (point == nullptr) continue;
@@ -129,7 +128,7 @@ std::optional<FitDiagnostics::Expected> FitDiagnostics::expected(
                       .transpose() *
                   line->by_end[e].transpose();
   }
-  const Eigen::VectorXd with_all = covariance_ * by_unknown;
+  const VectorXd with_all = covariance_ * by_unknown;
   Expected result{line->predicted_mm, by_unknown.dot(with_all), 0.0};
   for (const auto& [slot, by_end] : ends) {
     for (const auto& [other, by_other] : ends) {
@@ -145,7 +144,7 @@ std::optional<FitDiagnostics::Expected> FitDiagnostics::expected(
 
 AnchorVector FitDiagnostics::anchors_without(std::size_t point) const {
   const Block& block = blocks_[slots_[point].value().block];
-  const Eigen::VectorXd change =
+  const VectorXd change =
       linear::PivotedCholesky(precision_ - block.precision()).solve(-block.gradient());
   return frame_.state.anchors + change.head<kAnchorUnknowns>();
 }

@@ -22,7 +22,6 @@
 /// Source: B. Triggs et al., Bundle Adjustment - A Modern Synthesis (2000), section 6, for (1).
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -30,20 +29,21 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/belt_lengths.hpp"
 
 namespace chaintrue::grid::belts {
 
 /// All readings about a state, 4 N rows; 0 for a belt that cannot reach.
 struct ReadingLines {
-  Eigen::VectorXd residual_mm;  ///< read less predicted
-  Eigen::MatrixX2d by_place;    ///< d(predicted)/d(place)
+  VectorXd residual_mm;       ///< read less predicted
+  Eigen::MatrixX2d by_place;  ///< d(predicted)/d(place)
 };
 ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
 /// Includes the residuals of the distances.
 struct FitResiduals : ReadingLines {
-  Eigen::VectorXd distance_residual;  ///< in sigmas
+  VectorXd distance_residual;  ///< in sigmas
 };
 
 class FitDiagnostics {
@@ -55,9 +55,9 @@ class FitDiagnostics {
   double sigma_mm() const { return frame_.residual_sigma_mm; }
   const AnchorFit& frame() const { return frame_; }
   /// For a. Not finite, or with a negative diagonal, if it is not determined.
-  const Eigen::MatrixXd& covariance() const { return covariance_; }
+  const MatrixXd& covariance() const { return covariance_; }
   /// cov(a)^-1.
-  const Eigen::MatrixXd& precision() const { return precision_; }
+  const MatrixXd& precision() const { return precision_; }
   bool has_scale() const { return covariance_.cols() > kAnchorUnknowns; }
   bool counts(std::size_t point, model::Belt belt) const {
     return is_placed(point) && frame_.counting[point][belt];
@@ -70,10 +70,10 @@ class FitDiagnostics {
     return slots_[point] && blocks_[slots_[point]->block].is_taped;
   }
 
-  Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
+  Matrix2d place_covariance_mm2(std::size_t point) const;
 
   /// w cov(a) x': the response of a to a reading.
-  Eigen::VectorXd influence(std::size_t point, model::Belt belt) const;
+  VectorXd influence(std::size_t point, model::Belt belt) const;
 
   BeltResidual residual(std::size_t point, model::Belt belt) const;
 
@@ -92,23 +92,23 @@ class FitDiagnostics {
  private:
   struct Block {
     observation::BlockLine line;
-    Eigen::MatrixXd inverse;     ///< V^-1
-    Eigen::MatrixXd by_unknown;  ///< G
-    Eigen::MatrixXd left;        ///< X
+    MatrixXd inverse;     ///< V^-1
+    MatrixXd by_unknown;  ///< G
+    MatrixXd left;        ///< X
     bool is_taped = false;
     /// X' w A, and the gradient X' w r.
-    Eigen::MatrixXd precision() const {
+    MatrixXd precision() const {
       return left.transpose() * line.weight.asDiagonal() * line.by_parameter;
     }
-    Eigen::VectorXd gradient() const {
+    VectorXd gradient() const {
       return left.transpose() * line.weight.cwiseProduct(line.residual_mm);
     }
   };
   /// Index of a point in its block.
   struct Slot {
     std::size_t block = 0;
-    Eigen::Index place = 0;
-    Eigen::Index row(model::Belt belt) const { return 4 * place + static_cast<Eigen::Index>(belt); }
+    Index place = 0;
+    Index row(model::Belt belt) const { return 4 * place + static_cast<Index>(belt); }
   };
 
   AnchorFit frame_;
@@ -116,8 +116,8 @@ class FitDiagnostics {
   std::vector<Block> blocks_;
   std::vector<std::optional<Slot>> slots_;
   FitResiduals equations_;
-  Eigen::MatrixXd precision_;
-  Eigen::MatrixXd covariance_;
+  MatrixXd precision_;
+  MatrixXd covariance_;
 };
 
 }  // namespace chaintrue::grid::belts

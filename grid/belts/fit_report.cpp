@@ -22,7 +22,7 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
       if (!view.counts(k, belt)) continue;
-      squares.col(static_cast<Eigen::Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
+      squares.col(static_cast<Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
     }
   }
   for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
@@ -34,7 +34,7 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
     coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
     for (const Belt belt : kBelts) {
       coordinate.variance_share[belt] =
-          squares(row, static_cast<Eigen::Index>(belt)) / squares.row(row).sum();
+          squares(row, static_cast<Index>(belt)) / squares.row(row).sum();
     }
   }
 }
@@ -73,8 +73,8 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
               descending([](const BadBeltReading& one) { return std::abs(one.residual_mm); }));
 }
 
-void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view,
-                const Eigen::MatrixXd& covariance, BeltsFit& fit) {
+void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view, const MatrixXd& covariance,
+                BeltsFit& fit) {
   if (!view.has_scale()) return;
   BeltScale scale;
   scale.factor = std::exp(view.frame().state.log_scale);
@@ -130,7 +130,7 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
 }  // namespace
 
 BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
-                    const Eigen::MatrixXd& covariance) {
+                    const MatrixXd& covariance) {
   BeltsFit fit;
   fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();

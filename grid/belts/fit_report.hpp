@@ -5,13 +5,13 @@
 /// fits.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -19,7 +19,7 @@ namespace chaintrue::grid::belts {
 /// use the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
 /// logarithm too.
 BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
-                    const Eigen::MatrixXd& covariance);
+                    const MatrixXd& covariance);
 
 /// A fit with what counts given, and the readings as its anchors explain them.
 struct Refitted {

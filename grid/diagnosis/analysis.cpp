@@ -7,6 +7,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -27,13 +28,12 @@ double log_strength_density(double signal_to_noise) {
 
 /// Length of every regressor's column with the settings integrated out, no point set aside. Without making
 /// these columns: with hundreds of visits they are the largest matrix of all.
-Eigen::VectorXd reduced_lengths(const RegressorSystem& system) {
-  const Eigen::MatrixXd explained =
-      marginalise_rows(system, nothing_rejected(system)).root.explained();
-  const Eigen::VectorXd lost =
+VectorXd reduced_lengths(const RegressorSystem& system) {
+  const MatrixXd explained = marginalise_rows(system, nothing_rejected(system)).root.explained();
+  const VectorXd lost =
       linear::product(linear::transposed(explained), system.g.distinct()).colwise().squaredNorm();
-  Eigen::VectorXd squares = system.g.squared_norms();
-  for (Eigen::Index k = 0; k < squares.size(); ++k)
+  VectorXd squares = system.g.squared_norms();
+  for (Index k = 0; k < squares.size(); ++k)
     squares(k) -= std::pow(system.g.factor(k), 2) * lost(system.g.index(k));
   return squares.cwiseMax(0.0).cwiseSqrt();
 }
@@ -42,7 +42,7 @@ Eigen::VectorXd reduced_lengths(const RegressorSystem& system) {
 /// visit. A whole number has no free size to carry the prior of a cause's strength, so the visits
 /// carry it: density of the strength at each, as for any other cause.
 void share_out_links(RegressorSystem& system) {
-  const Eigen::VectorXd lengths = reduced_lengths(system);
+  const VectorXd lengths = reduced_lengths(system);
   std::size_t first = 0;
   while (first < system.regressors.size()) {
     std::size_t last = first;
@@ -89,10 +89,10 @@ DiagnosisFailure impossible(const ObservationSet& session, const model::MachineP
 }
 
 /// The largest of the settings' changes at the tool; a turn of the sheet counts at its edge.
-double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
+double move_mm(const ObservationSet& session, const VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
-  for (Eigen::Index k = 0; k < session.setting_columns(); ++k) {
+  for (Index k = 0; k < session.setting_columns(); ++k) {
     const bool turn = session.is_of_chains() &&
                       session.settings[as_size(k)] == model::Setting::sheet_rotation_rad;
     most = std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(k)));
@@ -112,7 +112,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
     system->g = RegressorColumns(session.rows);
     const auto outliers = outlier_sets(*system, none, {{}}).front();
     const MarginalisedSystem marginalised = marginalise(*system, outliers);
-    const Eigen::VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
+    const VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
     auto moved = moved_to(session, std::move(state), system->setting + change);
     if (!moved) return tl::unexpected(impossible(session, moved.error()));
     state = *std::move(moved);
@@ -143,7 +143,7 @@ void speak_of_leaders(const RegressorSystem& system, const ModelComparison& comp
 
 /// Removes causes that could not show, with this reason.
 void drop_hidden(std::string_view reason, Analysis& a) {
-  const Eigen::VectorXd lengths = reduced_lengths(a.system);
+  const VectorXd lengths = reduced_lengths(a.system);
   const auto shows = [&](const CauseId& cause) {
     double most = 0.0;
     for (const int k : a.system.regressors_of(cause)) {
@@ -286,7 +286,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   return a;
 }
 
-Analysis analyse_without(Analysis a, const Eigen::VectorXd& rows, const AnalysisRules& rules) {
+Analysis analyse_without(Analysis a, const VectorXd& rows, const AnalysisRules& rules) {
   a.system.e -= rows;
   a.taken_out = rows;
   compare(rules.compared(a, true), a);

@@ -13,6 +13,7 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 #include "grid/diagnosis/regressors.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -25,7 +26,7 @@ struct Analysis {
   std::vector<SizedCause> known;  ///< secants of these are taken at their values
   Candidates candidates;
   RegressorSystem system;
-  Eigen::VectorXd taken_out;  ///< of the system's rows, for analyse_without(); else empty
+  VectorXd taken_out;  ///< of the system's rows, for analyse_without(); else empty
   ModelComparison comparison;
   NullDistribution null;
   double score = 0.0;          ///< of the strongest single effect: log Bayes factor against nothing
@@ -82,8 +83,7 @@ void decide_by(const AnalysisRules& rules, bool detected, Analysis& a);
 void judge(const AnalysisRules& rules, Analysis& a);
 /// Compares and judges the causes again about the same state, after subtracting `rows` (whitened,
 /// one for each row of the system) from the readings.
-Analysis analyse_without(Analysis analysis, const Eigen::VectorXd& rows,
-                         const AnalysisRules& rules);
+Analysis analyse_without(Analysis analysis, const VectorXd& rows, const AnalysisRules& rules);
 
 /// For every machine except four belts.
 const AnalysisRules& calibrated_rules();

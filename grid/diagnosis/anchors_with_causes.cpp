@@ -6,6 +6,7 @@
 
 #include "grid/belts/fit_report.hpp"
 #include "grid/diagnosis/belts_report.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -20,7 +21,7 @@ using model::kBelts;
 void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, AnchorFit& frame) {
   const MeasuredBelts untaped = without_distances(without_causes);
   belts::place_all(untaped, frame);
-  frame.checks = std::max<Eigen::Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
+  frame.checks = std::max<Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
   const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
   double square = 0.0;
   for (std::size_t k = 0; k < frame.counting.size(); ++k) {
@@ -34,24 +35,24 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
 
 /// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty if the
 /// distances do not converge.
-std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_causes,
-                                              const AveragedAnchors& averaged, AnchorFit& frame) {
+std::optional<MatrixXd> take_distances(const MeasuredBelts& without_causes,
+                                       const AveragedAnchors& averaged, AnchorFit& frame) {
   const MeasuredBelts untaped = without_distances(without_causes);
   const auto alone = belts::fit_anchors_from(untaped, frame.state, frame.counting);
   const auto taped = belts::fit_anchors_from(without_causes, frame.state, frame.counting);
   if (!alone || !taped || !taped->is_sound) return std::nullopt;
-  constexpr Eigen::Index kAll = kAnchorUnknowns + 1;
-  const Eigen::MatrixXd own = FitDiagnostics(untaped, *alone).precision();
-  const Eigen::MatrixXd with_tape = FitDiagnostics(without_causes, *taped).precision();
-  const Eigen::MatrixXd known = linear::Cholesky(averaged.covariance_mm2).inverse();
-  Eigen::VectorXd there(kAll);
+  constexpr Index kAll = kAnchorUnknowns + 1;
+  const MatrixXd own = FitDiagnostics(untaped, *alone).precision();
+  const MatrixXd with_tape = FitDiagnostics(without_causes, *taped).precision();
+  const MatrixXd known = linear::Cholesky(averaged.covariance_mm2).inverse();
+  VectorXd there(kAll);
   there << taped->state.anchors, taped->state.log_scale;
-  Eigen::MatrixXd precision = with_tape;
+  MatrixXd precision = with_tape;
   precision.topLeftCorner(kAnchorUnknowns, kAnchorUnknowns) += known - own;
-  Eigen::VectorXd sum = with_tape * there;
+  VectorXd sum = with_tape * there;
   sum.head(kAnchorUnknowns) += known * averaged.anchors - own * alone->state.anchors;
   const linear::PivotedCholesky factor(precision);
-  const Eigen::VectorXd found = factor.solve(sum);
+  const VectorXd found = factor.solve(sum);
   frame.state.anchors = found.head<kAnchorUnknowns>();
   frame.state.log_scale = found[kAnchorUnknowns];
   belts::place_all(without_causes, frame);
@@ -94,7 +95,7 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
   frame.state.anchors = averaged.anchors;
   MeasuredBelts without_causes = without_effects(belts, sizes, frame.state);
   place_and_judge(without_causes, sizes.size(), frame);
-  Eigen::MatrixXd covariance = averaged.covariance_mm2;
+  MatrixXd covariance = averaged.covariance_mm2;
   if (!belts.distances.empty()) {
     const auto with_scale = take_distances(without_causes, averaged, frame);
     // Distances without positions with these readings: the contradiction shows with the uncorrected

@@ -3,6 +3,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -35,7 +36,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   }
   // The settings that go with the applied causes only.
   const Estimate fitted = taken.empty() ? estimate_of(a, {}) : estimate_with(a, taken);
-  const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
+  const VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
   append_all(diagnosis.extended_machine.effects, into_machine);
 }

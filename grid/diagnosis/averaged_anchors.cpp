@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/eigen.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -72,15 +74,15 @@ SizePrior prior_of(const Regressor& regressor, double noise_square) {
 /// factor on the model's evidence.
 double hold_to_usual_sizes(const std::vector<SizedCause>& known, const RegressorSystem& system,
                            Estimate& found) {
-  const Eigen::Index settings = found.setting_change.size();
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(found.covariance.rows());
+  const Index settings = found.setting_change.size();
+  VectorXd change = VectorXd::Zero(found.covariance.rows());
   double log_evidence = 0.0;
   for (std::size_t i = 0; i < found.free.size(); ++i) {
     const std::size_t k = found.free[i];
     const Regressor& regressor = system.regressor(found.regressors[k]);
     if (!(regressor.coefficient_sigma > 0.0) || is_in(known, regressor.cause)) continue;
     const SizePrior prior = prior_of(regressor, found.noise_square);
-    const Eigen::Index at = settings + as_index(i);
+    const Index at = settings + as_index(i);
     const double variance = found.covariance(at, at);
     const double coefficient = found.coefficient(as_index(k)) + change(at);
     // If the variance is unchanged the readings carry no information.
@@ -90,9 +92,9 @@ double hold_to_usual_sizes(const std::vector<SizedCause>& known, const Regressor
     const double own = prior.log_evidence(coefficient * from_readings / variance, from_readings);
     log_evidence += std::max(own, kPlainlyUnusual);
     if (own < kPlainlyUnusual) continue;
-    const Eigen::VectorXd column = found.covariance.col(at);
+    const VectorXd column = found.covariance.col(at);
     const double narrower = prior.usual * prior.wide / (prior.wide - prior.usual);
-    const Eigen::VectorXd gain = column / (variance + narrower);
+    const VectorXd gain = column / (variance + narrower);
     change -= gain * coefficient;
     found.covariance -= gain * column.transpose();
   }
@@ -100,7 +102,7 @@ double hold_to_usual_sizes(const std::vector<SizedCause>& known, const Regressor
   found.setting_covariance = found.covariance.topLeftCorner(settings, settings);
   for (std::size_t i = 0; i < found.free.size(); ++i) {
     const auto k = as_index(found.free[i]);
-    const Eigen::Index at = settings + as_index(i);
+    const Index at = settings + as_index(i);
     found.coefficient(k) += change(at);
     found.coefficient_sigma(k) = std::sqrt(std::max(found.covariance(at, at), 0.0));
   }

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "grid/diagnosis/downdating.hpp"
+#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -25,7 +26,7 @@ constexpr FollowedModels kFollowed{
     .within = 16.0, .most = 1000, .discrepancy_share = 0.002, .most_discrepancies = 30};
 /// The cost of a discrepancy grows with the cube of the rows. With more rows than this, the
 /// likeliest discrepancies represent the rest.
-constexpr Eigen::Index kRowsForAllDiscrepancies = 500;
+constexpr Index kRowsForAllDiscrepancies = 500;
 constexpr std::size_t kDiscrepanciesOfMany = 6;
 
 FollowedModels followed_of(const RegressorSystem& system) {
@@ -36,15 +37,15 @@ FollowedModels followed_of(const RegressorSystem& system) {
 
 struct UnitPlace {
   std::size_t unit = 0;
-  Eigen::Vector2d at;
+  Vector2d at;
 };
 
-Eigen::Vector2d place_of(const RegressorSystem& system, std::size_t u) {
+Vector2d place_of(const RegressorSystem& system, std::size_t u) {
   const SystemUnit& unit = system.units[u];
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Vector2d sum = Vector2d::Zero();
   for (const observation::PlaceColumns& place : unit.places) {
     const model::MarkPoint& mark = system.places[place.place].mark;
-    sum += Eigen::Vector2d(mark.x_mm, mark.y_mm);
+    sum += Vector2d(mark.x_mm, mark.y_mm);
   }
   return sum / as_double(unit.places.size());
 }
@@ -59,13 +60,13 @@ std::vector<UnitPlace> places_of_units(const RegressorSystem& system, const Flag
   return result;
 }
 
-bool lie_on_a_line(const std::vector<Eigen::Vector2d>& places) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+bool lie_on_a_line(const std::vector<Vector2d>& places) {
+  Vector2d mean = Vector2d::Zero();
   for (const auto& at : places) mean += at / as_double(places.size());
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  Matrix2d scatter = Matrix2d::Zero();
   for (const auto& at : places) scatter += (at - mean) * (at - mean).transpose();
-  const Eigen::Vector2d squares =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector2d squares =
+      Eigen::SelfAdjointEigenSolver<Matrix2d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
   return squares(0) <= kOnALine * kOnALine * squares(1);
 }
 
@@ -135,7 +136,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system, const Flags& exclu
   for (int k = 0; k < kCutDirections && out > 0; ++k) {
     // Half a step from the axes, so that no line runs along the columns of a lattice.
     const double towards = (k + 0.5) * 2.0 * std::numbers::pi / kCutDirections;
-    const Eigen::Vector2d direction(std::cos(towards), std::sin(towards));
+    const Vector2d direction(std::cos(towards), std::sin(towards));
     std::vector<double> along;
     for (const UnitPlace& place : places) along.push_back(direction.dot(place.at));
     std::vector<double> sorted = along;
@@ -143,7 +144,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system, const Flags& exclu
     // Readings of one mark stay together.
     constexpr double kOneMarkMm = 1e-6;
     BedPart part{towards, {}};
-    std::vector<Eigen::Vector2d> rest;
+    std::vector<Vector2d> rest;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (along[i] >= sorted[out - 1] - kOneMarkMm) {
         part.units.push_back(places[i].unit);

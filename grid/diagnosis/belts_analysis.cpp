@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"
@@ -31,7 +32,7 @@ constexpr int kRoundsOfBelts = 3;
 /// anchor that slips in an untried direction also looks like a skip of another belt.
 constexpr SearchLimits kSearch{.of_a_cause = 3, .one_event_visits = 4.0};
 /// With more rows a pattern costs seconds: one kernel, at the end alone.
-constexpr Eigen::Index kManyRows = 500;
+constexpr Index kManyRows = 500;
 constexpr std::size_t kKernelOfMany = 1;
 
 constexpr int kBeltWorkSteps = 2;

@@ -7,6 +7,7 @@
 #include "grid/belts/fit_report.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -35,25 +36,24 @@ double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& re
   }
   if (rows.size() < 2) return 0.0;
   const auto n = std::ssize(rows);
-  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(2 * n, 3);
-  Eigen::VectorXd shift(2 * n);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  MatrixXd design = MatrixXd::Zero(2 * n, 3);
+  VectorXd shift(2 * n);
+  for (Index i = 0; i < n; ++i) {
     const Eigen::Vector4d& row = rows[as_size(i)];
     design.row(2 * i) << 1.0, 0.0, -row[1];
     design.row(2 * i + 1) << 0.0, 1.0, row[0];
     shift.segment<2>(2 * i) = row.tail<2>();
   }
-  const Eigen::VectorXd left =
-      shift - linear::product(design, linear::least_squares(design, shift));
+  const VectorXd left = shift - linear::product(design, linear::least_squares(design, shift));
   return std::sqrt(left.squaredNorm() / as_double(n));
 }
 
 /// Root mean square over shifts along each axis of the anchors' uncertainty, in both directions.
-double uncertain_mm(const model::BeltMachine& machine, const Eigen::MatrixXd& covariance,
+double uncertain_mm(const model::BeltMachine& machine, const MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
   const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
-  for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
+  for (Index i = 0; i < covariance.cols(); ++i) {
     const belts::AnchorVector moved =
         belts::anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
@@ -82,7 +82,7 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   belts::AnchorFit from = given.frame;
   from.counting.assign(belts.points.size(), belts::kAllBelts);
   const FitGivenCauses at = fit_given_causes(belts, given.causes, from).value_or(given);
-  const Eigen::VectorXd left = belts::reading_lines(at.belts, at.frame.state).residual_mm;
+  const VectorXd left = belts::reading_lines(at.belts, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / as_double(left.size()));
 }
 
@@ -134,7 +134,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
     found.places.push_back(place);
   }
   const auto values = std::ssize(a.estimate.free);
-  found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
+  found.checks = static_cast<int>(std::max<Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
   found.prediction_before = a.before.half_left_out;
   found.prediction = prediction_by_halves(a.belts, frame, given.causes);
@@ -151,8 +151,8 @@ Unexplained pattern_of_belts(const BeltsAnalysis& a) {
   result.probability = std::clamp(a.decision.discrepancy, 0.0, 1.0);
   if (a.noise == nullptr) return result;
   const KeptRows& kept = marginalised_system(a).kept;
-  const Eigen::VectorXd all = kept(a.estimate.left);
-  const Eigen::VectorXd taken = all - kept(a.estimate.left_given_discrepancy);
+  const VectorXd all = kept(a.estimate.left);
+  const VectorXd taken = all - kept(a.estimate.left_given_discrepancy);
   result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / as_double(taken.size()));
   result.signal_to_noise = result.rms_mm / a.sigma_mm * std::sqrt(as_double(a.system.e.size()));
   result.share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
@@ -164,15 +164,15 @@ Unexplained pattern_of_belts(const BeltsAnalysis& a) {
 double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
   Eigen::Matrix<double, 3, 1> residual;
   Eigen::Matrix<double, 3, 2> by_place;
-  Eigen::Index row = 0;
+  Index row = 0;
   for (const Belt belt : kBelts) {
     if (belt == without) continue;
-    const Eigen::Index at = belts::row_of(point, belt);
+    const Index at = belts::row_of(point, belt);
     residual(row) = view.equations().residual_mm(at) / view.sigma_mm();
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
-  const Eigen::Vector2d moved = Eigen::LDLT<Eigen::Matrix2d>(by_place.transpose() * by_place)
-                                    .solve(by_place.transpose() * residual);
+  const Vector2d moved =
+      Eigen::LDLT<Matrix2d>(by_place.transpose() * by_place).solve(by_place.transpose() * residual);
   return (residual - by_place * moved).squaredNorm();
 }
 

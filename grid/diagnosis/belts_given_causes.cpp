@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_system.hpp"
+#include "grid/eigen.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +40,11 @@ std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
 }
 
 /// Derivative of the readings by each, mm per unit.
-Eigen::MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
-                              const belts::FrameState& state, const std::vector<FreeValue>& free) {
+MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
+                       const belts::FrameState& state, const std::vector<FreeValue>& free) {
   // Share of a value's usual spread, for difference quotients.
   constexpr double kStep = 0.05;
-  Eigen::MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
+  MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
   for (std::size_t f = 0; f < free.size(); ++f) {
     const double step = kStep * free[f].parameter->prior_sigma;
     const SizedCause& here = causes[free[f].cause];
@@ -56,7 +57,7 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<Size
 }
 
 /// Applies the step; returns true once it is below the values' uncertainty.
-bool moved(const Eigen::VectorXd& change, const std::vector<FreeValue>& free,
+bool moved(const VectorXd& change, const std::vector<FreeValue>& free,
            std::vector<SizedCause>& causes) {
   // Share of a value's usual spread: a hundredth of what the best data leave uncertain.
   constexpr double kConverged = 1e-4;
@@ -77,11 +78,11 @@ bool moved(const Eigen::VectorXd& change, const std::vector<FreeValue>& free,
 }
 
 /// (1), in millimetres: changes of the five anchor coordinates, then of the values.
-Eigen::VectorXd least_squares(const FitGivenCauses& given, const Eigen::MatrixXd& columns) {
+VectorXd least_squares(const FitGivenCauses& given, const MatrixXd& columns) {
   const belts::AnchorFit& frame = given.frame;
   const ObservationSet set = observations_of(given.belts, frame.state, 1.0, frame.counting);
   const RegressorSystem system = linearise(set, estimation::stated_state(set)).value();
-  Eigen::MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
+  MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
   design.leftCols<belts::kAnchorUnknowns>() = system.by_setting;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     const SystemUnit& unit = system.units[u];
@@ -94,9 +95,9 @@ Eigen::VectorXd least_squares(const FitGivenCauses& given, const Eigen::MatrixXd
 
 }  // namespace
 
-Eigen::VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
-                         const belts::FrameState& state) {
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(4 * std::ssize(belts.points));
+VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
+                  const belts::FrameState& state) {
+  VectorXd added = VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
   const auto effects = resolved(causes);
   const model::BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
@@ -121,7 +122,7 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCaus
 MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
                               const belts::FrameState& state) {
   MeasuredBelts without_causes = belts;
-  const Eigen::VectorXd added = added_by(belts, causes, state);
+  const VectorXd added = added_by(belts, causes, state);
   for (std::size_t k = 0; k < without_causes.points.size(); ++k) {
     for (const Belt belt : kBelts)
       without_causes.points[k].lengths_mm[belt] -= added[belts::row_of(k, belt)];
@@ -164,7 +165,7 @@ std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
     given.frame = *std::move(frame);
     take_out();
     if (free.empty() && round > 0) break;
-    const Eigen::VectorXd change =
+    const VectorXd change =
         least_squares(given, value_columns(belts, given.causes, given.frame.state, free));
     const bool is_settled = moved(change, free, given.causes);
     take_out();

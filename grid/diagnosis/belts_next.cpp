@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "grid/diagnosis/next_measurements.hpp"
+#include "grid/eigen.hpp"
 #include "grid/raster.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
@@ -87,7 +88,7 @@ class NextPlaces {
     for (std::size_t u = 0; u < system.units.size() && !candidates.empty(); ++u) {
       const SystemUnit& unit = system.units[u];
       Rows& rows = candidates[system.places[u].place].rows;
-      for (Eigen::Index row = 0; row < unit.rows; ++row) rows.push_back(unit.first_row + row);
+      for (Index row = 0; row < unit.rows; ++row) rows.push_back(unit.first_row + row);
     }
     return alternatives_about(a_, system, [&](const SizedCause& own) {
       return std::optional(column_of(belts, state, system, own));
@@ -152,7 +153,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
     if (next.next_visit) point.order = (*next.next_visit)++;
   }
   const std::vector<Alternative> alternatives = next.predicted();
-  auto rows = numbers_below<Eigen::Index>(alternatives.front().mean.size());
+  auto rows = numbers_below<Index>(alternatives.front().mean.size());
   return expected_discrimination(alternatives, rows).named_alone;
 }
 

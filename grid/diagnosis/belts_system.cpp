@@ -132,13 +132,12 @@ std::vector<Regressor> tried_of(const CauseId& cause, const SizedCause* found,
 /// evaluation serves all visits.
 ColumnOf columns_of(const MeasuredBelts& belts, const belts::FrameState& state,
                     const RegressorSystem& system) {
-  return [&, from_the_start =
-                 std::map<std::vector<double>, Eigen::VectorXd>()](SizedCause cause) mutable {
+  return [&, from_the_start = std::map<std::vector<double>, VectorXd>()](SizedCause cause) mutable {
     if (cause.values.size() == 1) return column_of(belts, state, system, cause);
     const double visit = std::exchange(cause.values.back(), std::numeric_limits<int>::min());
-    Eigen::VectorXd& whole = from_the_start[cause.values];
+    VectorXd& whole = from_the_start[cause.values];
     if (whole.size() == 0) whole = column_of(belts, state, system, cause);
-    Eigen::VectorXd column = whole;
+    VectorXd column = whole;
     for (std::size_t u = 0; u < system.units.size(); ++u) {
       const SystemUnit& unit = system.units[u];
       if (system.places[u].order < visit) column.segment(unit.first_row, unit.rows).setZero();
@@ -213,15 +212,15 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
                           const ObservationSet& session, const std::vector<CauseId>& causes,
                           const std::vector<SizedCause>& known) {
   // Two rows more than anchors are needed; otherwise no degrees of freedom remain.
-  constexpr Eigen::Index kFewestChecks = 3;
+  constexpr Index kFewestChecks = 3;
   // Two bad readings at a place, or at neighbouring places, can mask each other.
   constexpr std::size_t kBeyondTheBest = 8;
   RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     SystemUnit& unit = system.units[u];
-    for (Eigen::Index belt = 0; belt < 4; ++belt)
-      system.groups.push_back({unit.first_row, 2, Eigen::Vector2d(unit.by_reading.col(belt))});
+    for (Index belt = 0; belt < 4; ++belt)
+      system.groups.push_back({unit.first_row, 2, Vector2d(unit.by_reading.col(belt))});
     unit.places.push_back({u, {}});
     system.places.push_back(place_of(belts, state, session.units[u].index));
     ordered = ordered || system.places[u].ordered;
@@ -250,10 +249,10 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
   return system;
 }
 
-Eigen::VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
-                          const RegressorSystem& system, const SizedCause& cause) {
-  const Eigen::VectorXd added = added_by(belts, {cause}, state);
-  Eigen::VectorXd column(system.e.size());
+VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                   const RegressorSystem& system, const SizedCause& cause) {
+  const VectorXd added = added_by(belts, {cause}, state);
+  VectorXd column(system.e.size());
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     const SystemUnit& unit = system.units[u];
     column.segment(unit.first_row, unit.rows) =

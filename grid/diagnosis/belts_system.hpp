@@ -21,13 +21,13 @@
 /// projected out.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_report.hpp"
 #include "grid/diagnosis/regressors.hpp"
+#include "grid/eigen.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -37,8 +37,8 @@ std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>
 
 /// What the causes add to the printed lengths, 4 N numbers in mm in the order of row_of(); 0 for
 /// readings that such a machine cannot give.
-Eigen::VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
-                         const belts::FrameState& state);
+VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
+                  const belts::FrameState& state);
 
 /// The readings minus that.
 [[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
@@ -71,7 +71,7 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
                           const std::vector<SizedCause>& known = {});
 
 /// What a cause adds to the checks of a system of these belts about this state, whitened.
-Eigen::VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
-                          const RegressorSystem& system, const SizedCause& cause);
+VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
+                   const RegressorSystem& system, const SizedCause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -6,6 +6,7 @@
 #include "grid/diagnosis/decision.hpp"
 
 #include "grid/diagnosis/estimate.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -38,8 +39,8 @@ bool on_paper(const CauseId& cause) { return cause.effect->station == Station::p
 
 /// A cause's signature with the settings free, and with what was stated of them.
 struct Representative {
-  Eigen::VectorXd free;
-  Eigen::VectorXd stated;
+  VectorXd free;
+  VectorXd stated;
   CauseId cause;
   bool fixed = false;
 };
@@ -82,12 +83,12 @@ bool is_whole(const RegressorSystem& system, const ModelComparison& comparison,
   if (!model) return false;
   const Estimate found =
       estimate(system, comparison.marginalised_systems[model->marginalised], model->regressors, -1);
-  const Eigen::Index at = found.position(model->free);
-  const Eigen::VectorXd own = system.g.col(model->free);
+  const Index at = found.position(model->free);
+  const VectorXd own = system.g.col(model->free);
   const Regressor& of_free = system.regressor(model->free);
   for (const int k : system.regressors_of(whole)) {
     if (system.regressor(k).values.back() != of_free.values.back()) continue;
-    const double asked = own.dot(Eigen::VectorXd(system.g.col(k))) / own.squaredNorm();
+    const double asked = own.dot(VectorXd(system.g.col(k))) / own.squaredNorm();
     if (std::abs(found.coefficient(at) - asked) <= kSigmas * found.coefficient_sigma(at))
       return true;
   }
@@ -124,7 +125,7 @@ void put_likelier_first(const RegressorSystem& system, const ModelComparison& co
 
 /// An orthonormal basis of the settings' effects. Directions that would need implausible settings
 /// are dropped: distances hardly depend on some settings.
-Eigen::MatrixXd range_of_settings(const RegressorSystem& system, const Eigen::MatrixXd& columns) {
+MatrixXd range_of_settings(const RegressorSystem& system, const MatrixXd& columns) {
   constexpr double kFelt = 1e-4;
   if (system.nuisances == 0) return linear::orthonormal_columns(columns);
   return linear::range_of(linear::scaled_columns(columns, system.sigma.head(columns.cols())), kFelt)
@@ -138,9 +139,9 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   const MarginalisedSystem& marginalised = comparison.best_system();
   // Settings are free, so that classes do not depend on how well they were stated.
   const LowRankNoise noise = nuisance_noise(system, marginalised.kept);
-  const auto visible = [&](const Eigen::MatrixXd& columns) { return noise.half_solve(columns); };
-  const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
-  const Eigen::MatrixXd basis = range_of_settings(
+  const auto visible = [&](const MatrixXd& columns) { return noise.half_solve(columns); };
+  const Index settings = system.by_setting.cols() - system.nuisances;
+  const MatrixXd basis = range_of_settings(
       system, visible(marginalised.kept.of(system.by_setting.leftCols(settings))));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;

@@ -14,9 +14,9 @@ namespace {
 constexpr double kHardlyLikely = 0.1;
 
 /// Whether some cause deserves a second comparison, by its evidence alone.
-bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
+bool may_name_a_cause(const Analysis& a, const VectorXd& rows) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const Eigen::VectorXd e = marginalised.e - reduced(marginalised, rows);
+  const VectorXd e = marginalised.e - reduced(marginalised, rows);
   const NoiseDensity noise(a.system.noise_dof, marginalised.kept.size());
   const SingleScores scores = single_scores(a.system, marginalised, noise, e);
   const double beforehand = log_odds_of_another(a.system, {}, false);
@@ -30,13 +30,12 @@ bool holds(const Analysis& a, const CauseId& cause) {
 
 }  // namespace
 
-std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& a, const LawsFound& laws) {
+std::optional<VectorXd> rows_of_claimed_law(const Analysis& a, const LawsFound& laws) {
   if (laws.laws.empty() || laws.laws.front().probability < kLawClaimed) return std::nullopt;
   const LawsFound::Heaviest& first = laws.heaviest.front();
   const LawEvidence& evidence = laws.evidence[first.evidence];
   const WeighedLaw& law = evidence.laws[first.law];
-  Eigen::VectorXd rows =
-      law_columns(a.system, evidence.curves[law.curve], {law.at}) * law.amplitude;
+  VectorXd rows = law_columns(a.system, evidence.curves[law.curve], {law.at}) * law.amplitude;
   if (a.decision.listed.empty() && !may_name_a_cause(a, rows)) return std::nullopt;
   return rows;
 }

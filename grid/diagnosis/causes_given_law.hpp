@@ -8,17 +8,17 @@
 /// strength 12 a twelfth is left in the readings, less than their noise at any one of them.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
 #include "grid/diagnosis/laws.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 /// The likeliest law's contribution to the readings, whitened; empty if none is claimed, or if
 /// removing it cannot change a name.
-std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& analysis, const LawsFound& laws);
+std::optional<VectorXd> rows_of_claimed_law(const Analysis& analysis, const LawsFound& laws);
 
 /// Causes that only one of two comparisons names: first those named given the law, the likeliest
 /// first.

@@ -5,45 +5,41 @@
 
 namespace chaintrue::grid::diagnosis {
 
-CovarianceRoot::CovarianceRoot(const Eigen::MatrixXd& a) {
+CovarianceRoot::CovarianceRoot(const MatrixXd& a) {
   linear::ThinSvd parts = linear::thin_svd(a);
   basis_ = std::move(parts.u);
   log_variance_ = parts.values.array().square().log1p();
 }
 
 /// (1 + a^2)^p - 1
-Eigen::VectorXd CovarianceRoot::change(double exponent) const {
+VectorXd CovarianceRoot::change(double exponent) const {
   return (exponent * log_variance_).exp() - 1.0;
 }
 
-void CovarianceRoot::multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) const {
-  Eigen::MatrixXd along = linear::product(linear::transposed(basis_), m);
-  const Eigen::VectorXd own = change(exponent);
-  for (Eigen::Index k = 0; k < along.cols(); ++k) along.col(k).array() *= own.array();
+void CovarianceRoot::multiply(double exponent, Eigen::Ref<MatrixXd> m) const {
+  MatrixXd along = linear::product(linear::transposed(basis_), m);
+  const VectorXd own = change(exponent);
+  for (Index k = 0; k < along.cols(); ++k) along.col(k).array() *= own.array();
   linear::add_product(m, 1.0, basis_, along);
 }
 
-Eigen::MatrixXd CovarianceRoot::explained() const {
+MatrixXd CovarianceRoot::explained() const {
   return linear::scaled_columns(basis_, (-change(-1.0)).cwiseSqrt());
 }
 
-Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row, Eigen::Index rows,
-                                                Eigen::Index column, Eigen::Index columns) const {
-  Eigen::MatrixXd result = linear::product(
+MatrixXd CovarianceRoot::precision_block(Index row, Index rows, Index column, Index columns) const {
+  MatrixXd result = linear::product(
       basis_.middleRows(row, rows),
       linear::transposed(linear::scaled_columns(basis_.middleRows(column, columns), change(-1.0))));
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    const Eigen::Index own = column + k - row;
+  for (Index k = 0; k < columns; ++k) {
+    const Index own = column + k - row;
     if (own >= 0 && own < rows) result(own, k) += 1.0;
   }
   return result;
 }
 
-LowRankNoise::LowRankNoise(Eigen::MatrixXd a)
-    : a_(std::move(a)), normal_(linear::one_plus_gram(a_)) {}
+LowRankNoise::LowRankNoise(MatrixXd a) : a_(std::move(a)), normal_(linear::one_plus_gram(a_)) {}
 
-Eigen::MatrixXd LowRankNoise::explained() const {
-  return normal_.half_solve(a_.transpose()).transpose();
-}
+MatrixXd LowRankNoise::explained() const { return normal_.half_solve(a_.transpose()).transpose(); }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -11,9 +11,9 @@
 ///   const double square = noise.half_solve(e).squaredNorm();   // e' V^-1 e
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -24,7 +24,7 @@ class CovarianceRoot {
  public:
   CovarianceRoot() = default;
   /// \param a  rows x unknowns, either may be 0.
-  explicit CovarianceRoot(const Eigen::MatrixXd& a);
+  explicit CovarianceRoot(const MatrixXd& a);
 
   /// V^(-1/2) m.
   template <class M>
@@ -37,10 +37,9 @@ class CovarianceRoot {
     return multiplied<linear::Like<M>>(0.5, m);
   }
   /// T with V^-1 = 1 - T T'.
-  Eigen::MatrixXd explained() const;
+  MatrixXd explained() const;
   /// The block of V^(-1) of this size that starts at these indices.
-  Eigen::MatrixXd precision_block(Eigen::Index row, Eigen::Index rows, Eigen::Index column,
-                                  Eigen::Index columns) const;
+  MatrixXd precision_block(Index row, Index rows, Index column, Index columns) const;
   double log_det() const { return log_variance_.sum(); }
 
  private:
@@ -50,10 +49,10 @@ class CovarianceRoot {
     multiply(exponent, m);
     return m;
   }
-  void multiply(double exponent, Eigen::Ref<Eigen::MatrixXd> m) const;
-  Eigen::VectorXd change(double exponent) const;
-  Eigen::MatrixXd basis_;        ///< U
-  Eigen::ArrayXd log_variance_;  ///< log(1 + a^2)
+  void multiply(double exponent, Eigen::Ref<MatrixXd> m) const;
+  VectorXd change(double exponent) const;
+  MatrixXd basis_;        ///< U
+  ArrayXd log_variance_;  ///< log(1 + a^2)
 };
 
 /// At the cost of a Cholesky factorisation of A's columns, for many of them. With c = (1 + A'A)^-1 A'x,
@@ -62,7 +61,7 @@ class LowRankNoise {
  public:
   LowRankNoise() = default;
   /// \param a  rows x columns, either may be 0.
-  explicit LowRankNoise(Eigen::MatrixXd a);
+  explicit LowRankNoise(MatrixXd a);
 
   /// V^-1 x
   template <class X>
@@ -79,11 +78,11 @@ class LowRankNoise {
     return result;
   }
   /// T with V^-1 = 1 - T T'.
-  Eigen::MatrixXd explained() const;
+  MatrixXd explained() const;
   double log_det() const { return normal_.log_det(); }
 
  private:
-  Eigen::MatrixXd a_;
+  MatrixXd a_;
   linear::Cholesky normal_;  ///< 1 + A'A
 };
 

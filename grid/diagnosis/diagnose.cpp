@@ -16,6 +16,7 @@
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
@@ -62,7 +63,7 @@ bool is_refuted(const Analysis& a, const CauseId& cause) {
   const LawModel model(a, marginalised_system(a), others_than(a, cause),
                        a.decision.best_discrepancy);
   const double odds = kLawClaimed / (1.0 - kLawClaimed);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(g->size());
+  const VectorXd none = VectorXd::Zero(g->size());
   return model.log_density(none) - model.log_density(*g) > std::log(odds);
 }
 

@@ -14,7 +14,6 @@
 /// of all files in their order.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,6 +25,7 @@
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/pictures.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/observation/visiting_order.hpp"
 #include "model/calibration/setting.hpp"
@@ -159,7 +159,7 @@ struct Outlier {
   /// The belt at the same place that may be wrong instead, if the lengths do not show which.
   std::optional<model::Belt> or_belt{};
   /// Implied position of the tool minus the mark.
-  Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
+  Vector2d shift_mm = Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
   /// For a distance or a belt: read minus the prediction by all others.
   double residual_mm = 0.0;

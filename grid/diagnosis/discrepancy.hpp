@@ -20,7 +20,6 @@
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <span>
@@ -29,6 +28,7 @@
 #include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -47,7 +47,7 @@ struct DiscrepancyField {
   std::optional<double> direction_rad{};  ///< of entry: of (left, right), or of (x, y)
   double across_rad = 0.0;                ///< from x, of Coordinate::across
   /// For FieldEntry::lengths the one length that it disturbs; absent: each of them.
-  std::optional<Eigen::Index> alone{};
+  std::optional<Index> alone{};
   bool operator==(const DiscrepancyField&) const = default;
 };
 
@@ -97,7 +97,7 @@ struct FieldArgument {
   double weight = 1.0;  ///< of the field there, with its sign
 };
 FieldArgument field_argument(const DiscrepancyField& field, const SystemPlace& place,
-                             Eigen::Index component);
+                             Index component);
 
 /// For the field's values at two arguments.
 double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
@@ -105,43 +105,43 @@ double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
 
 /// How a field enters: d of its direction; (1, 1) of the border, where both components are one
 /// field's; nothing if the components are independent.
-std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
+std::optional<Vector2d> entry_direction(const DiscrepancyField& field);
 
 /// T at a place.
-Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
+Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
 
 /// Covariance of the two chains at two places, for s = 1.
-Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
-                                  const SystemPlace& b);
+Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
+                           const SystemPlace& b);
 
 /// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
 /// that see no place stay 0.
-Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to, const RegressorSystem& from,
-                                       const KeptRows& kept, const DiscrepancyKernel& kernel);
+MatrixXd discrepancy_covariance(const RegressorSystem& to, const RegressorSystem& from,
+                                const KeptRows& kept, const DiscrepancyKernel& kernel);
 
 /// Covariance of these whitened rows, for s = 1.
-Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system, const KeptRows& kept,
-                                       const DiscrepancyKernel& kernel);
+MatrixXd discrepancy_covariance(const RegressorSystem& system, const KeptRows& kept,
+                                const DiscrepancyKernel& kernel);
 
 /// F with F F' = that covariance up to rounding: kept x r. A smooth field over a bed has few degrees of freedom.
-Eigen::MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
-                                   const DiscrepancyKernel& kernel);
+MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
+                            const DiscrepancyKernel& kernel);
 
 /// F with F F' ~= a covariance of n, n x r, what is left of its diagonal below `least`, by a pivoted Cholesky
 /// factorisation (H. Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428,
 /// algorithm 1).
-using CovarianceOf = std::function<double(Eigen::Index, Eigen::Index)>;
-Eigen::MatrixXd low_rank(Eigen::Index n, double least, const CovarianceOf& covariance);
+using CovarianceOf = std::function<double(Index, Index)>;
+MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance);
 
 /// A field's effect on the kept rows, through either component of its entry, what is left of the field's unit
 /// variance at any place below `least`.
 struct FieldFactor {
-  Eigen::MatrixXd first, second;  ///< kept x r
+  MatrixXd first, second;  ///< kept x r
 };
 FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
                          const DiscrepancyField& field, double least);
 
 /// The mixes of the two components that a field enters by: its direction, or each of them alone.
-std::vector<Eigen::Vector2d> entries_of(const DiscrepancyField& field);
+std::vector<Vector2d> entries_of(const DiscrepancyField& field);
 
 }  // namespace chaintrue::grid::diagnosis

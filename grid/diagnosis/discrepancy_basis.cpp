@@ -16,25 +16,23 @@ namespace {
 constexpr double kLeftOfField = 1e-4;
 
 /// B of a kernel of lengths.
-Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
-                                 const MarginalisedSystem& marginalised,
-                                 const DiscrepancyKernel& kernel) {
-  const Eigen::MatrixXd half =
+MatrixXd low_rank_lengths(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                          const DiscrepancyKernel& kernel) {
+  const MatrixXd half =
       marginalised.root.solve(discrepancy_covariance(system, marginalised.kept, kernel));
-  const Eigen::MatrixXd k = marginalised.root.solve(half.transpose());
+  const MatrixXd k = marginalised.root.solve(half.transpose());
   const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
-  if (!(most > 0.0)) return Eigen::MatrixXd(k.rows(), 0);
-  return low_rank(k.rows(), kLeftOfField * most,
-                  [&](Eigen::Index i, Eigen::Index j) { return k(i, j); });
+  if (!(most > 0.0)) return MatrixXd(k.rows(), 0);
+  return low_rank(k.rows(), kLeftOfField * most, [&](Index i, Index j) { return k(i, j); });
 }
 
 /// One field's inner products, by component.
 struct Products {
-  DiscrepancyField field;                  ///< without its direction
-  FieldFactor parts;                       ///< R^-1 times its effect on the kept rows
-  Eigen::MatrixXd gram11, gram12, gram22;  ///< r x r
+  DiscrepancyField field;           ///< without its direction
+  FieldFactor parts;                ///< R^-1 times its effect on the kept rows
+  MatrixXd gram11, gram12, gram22;  ///< r x r
   /// With the residual and the columns of some normal equations, r x (1 + columns) each.
-  std::map<const NormalEquations*, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> with;
+  std::map<const NormalEquations*, std::pair<MatrixXd, MatrixXd>> with;
 };
 
 /// A share of a kernel's basis: c times a field's first component plus s times its second.
@@ -44,16 +42,15 @@ struct Block {
   double s = 0.0;
 };
 
-Eigen::MatrixXd gram(const Block& a, const Block& b) {
+MatrixXd gram(const Block& a, const Block& b) {
   const Products& p = *a.products;
   if (a.products == b.products) {
     return a.c * b.c * p.gram11 + a.c * b.s * p.gram12 + a.s * b.c * p.gram12.transpose() +
            a.s * b.s * p.gram22;
   }
   const Products& q = *b.products;
-  return linear::product(
-      linear::transposed(Eigen::MatrixXd(a.c * p.parts.first + a.s * p.parts.second)),
-      Eigen::MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
+  return linear::product(linear::transposed(MatrixXd(a.c * p.parts.first + a.s * p.parts.second)),
+                         MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
 }
 
 }  // namespace
@@ -80,7 +77,7 @@ class DiscrepancyBasis::Fields {
   }
 
   /// Inner products of a block with the residual and these columns.
-  Eigen::MatrixXd with(const Block& block, const NormalEquations& plain) {
+  MatrixXd with(const Block& block, const NormalEquations& plain) {
     auto known = block.products->with.find(&plain);
     if (known == block.products->with.end())
       known = block.products->with
@@ -93,7 +90,7 @@ class DiscrepancyBasis::Fields {
 
   /// Computes the inner products of all fields with these columns, so that `with` changes nothing.
   void relate_all(const NormalEquations& plain) {
-    const Eigen::MatrixXd e = residual_and(marginalised_, plain.columns);
+    const MatrixXd e = residual_and(marginalised_, plain.columns);
     for (Products& own : all_) own.with.try_emplace(&plain);
     for_each_index(all_.size(),
                    [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
@@ -114,8 +111,7 @@ class DiscrepancyBasis::Fields {
     return p;
   }
 
-  static std::pair<Eigen::MatrixXd, Eigen::MatrixXd> products_with(const Products& products,
-                                                                   const Eigen::MatrixXd& e) {
+  static std::pair<MatrixXd, MatrixXd> products_with(const Products& products, const MatrixXd& e) {
     return {linear::product(linear::transposed(products.parts.first), e),
             linear::product(linear::transposed(products.parts.second), e)};
   }
@@ -128,15 +124,15 @@ class DiscrepancyBasis::Fields {
 namespace {
 
 /// B'B
-Eigen::MatrixXd gram_of(const std::vector<Block>& blocks) {
-  Eigen::Index rank = 0;
+MatrixXd gram_of(const std::vector<Block>& blocks) {
+  Index rank = 0;
   for (const Block& block : blocks) rank += block.products->gram11.cols();
-  Eigen::MatrixXd all(rank, rank);
-  Eigen::Index row = 0;
+  MatrixXd all(rank, rank);
+  Index row = 0;
   for (const Block& a : blocks) {
-    Eigen::Index column = 0;
+    Index column = 0;
     for (const Block& b : blocks) {
-      const Eigen::MatrixXd part = gram(a, b);
+      const MatrixXd part = gram(a, b);
       all.block(row, column, part.rows(), part.cols()) = part;
       column += part.cols();
     }
@@ -150,7 +146,7 @@ Eigen::MatrixXd gram_of(const std::vector<Block>& blocks) {
 struct DiscrepancyBasis::Kernel {
   std::vector<Block> blocks;
   linear::Tridiagonal tridiagonal;
-  Eigen::MatrixXd turned;  ///< Q'B', r x N, if prepared
+  MatrixXd turned;  ///< Q'B', r x N, if prepared
 };
 
 DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSystem& marginalised,
@@ -167,12 +163,12 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSy
     for (const DiscrepancyField& field : kernel.fields) {
       if (kernel.of_lengths()) break;
       Products* const products = &fields_->of(field);
-      for (const Eigen::Vector2d& entry : entries_of(field))
+      for (const Vector2d& entry : entries_of(field))
         own.blocks.push_back({products, share * entry.x(), share * entry.y()});
     }
   }
   for_each_index(kernels.size(), [&](std::size_t k) {
-    Eigen::MatrixXd all = gram_of(kernels_[kernels[k]].blocks);
+    MatrixXd all = gram_of(kernels_[kernels[k]].blocks);
     marginalised.discrepancy_trace[kernels[k]] = all.trace();
     kernels_[kernels[k]].tridiagonal = linear::Tridiagonal(std::move(all));
   });
@@ -183,7 +179,7 @@ DiscrepancyBasis::~DiscrepancyBasis() = default;
 void DiscrepancyBasis::prepare(std::size_t number) {
   Kernel& own = kernels_.at(number);
   own.turned.resize(own.tridiagonal.diagonal().size(), marginalised_.e.size());
-  Eigen::Index row = 0;
+  Index row = 0;
   for (const Block& block : own.blocks) {
     const FieldFactor& parts = block.products->parts;
     own.turned.middleRows(row, parts.first.cols()) =
@@ -209,13 +205,13 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
   }
   result.on_ = own.tridiagonal.diagonal();
   result.subdiagonal_ = own.tridiagonal.subdiagonal();
-  Eigen::MatrixXd with(result.on_.size(), lines);
+  MatrixXd with(result.on_.size(), lines);
   if (own.turned.size() > 0) {
     with = linear::product(own.turned, residual_and(marginalised_, plain.columns));
   } else {
-    Eigen::Index row = 0;
+    Index row = 0;
     for (const Block& block : own.blocks) {
-      const Eigen::MatrixXd part = fields_->with(block, plain);
+      const MatrixXd part = fields_->with(block, plain);
       with.middleRows(row, part.rows()) = part;
       row += part.rows();
     }
@@ -228,10 +224,10 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
 DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double strength) const {
   // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry next to each
   const double shift = trace_ / (strength * strength);
-  const Eigen::Index r = on_.size();
-  Half result{Eigen::ArrayXd(r), Eigen::ArrayXd::Zero(r), 0.0};
+  const Index r = on_.size();
+  Half result{ArrayXd(r), ArrayXd::Zero(r), 0.0};
   double d = 0.0;
-  for (Eigen::Index k = 0; k < r; ++k) {
+  for (Index k = 0; k < r; ++k) {
     const double own = on_(k) + shift;
     const double before = k > 0 ? subdiagonal_(k - 1) : 0.0;
     if (k > 0) result.above(k) = before / std::sqrt(d);
@@ -243,8 +239,8 @@ DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double s
   return result;
 }
 
-void DiscrepancyBasis::GivenKernel::apply(const Half& half, Eigen::MatrixXd& lines) {
-  for (Eigen::Index k = 0; k < lines.cols(); ++k) {
+void DiscrepancyBasis::GivenKernel::apply(const Half& half, MatrixXd& lines) {
+  for (Index k = 0; k < lines.cols(); ++k) {
     if (k > 0) lines.col(k) -= half.above(k) * lines.col(k - 1);
     lines.col(k) *= half.on(k);
   }
@@ -253,9 +249,9 @@ void DiscrepancyBasis::GivenKernel::apply(const Half& half, Eigen::MatrixXd& lin
 DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(
     double strength) const {
   const Half own = half(strength);
-  Eigen::MatrixXd lines = rotated_;
+  MatrixXd lines = rotated_;
   apply(own, lines);
-  const Eigen::VectorXd e = lines.row(0);
+  const VectorXd e = lines.row(0);
   const auto g = lines.bottomRows(lines.rows() - 1);
   Diagonal result;
   result.ee = plain_->ee - e.squaredNorm();
@@ -275,9 +271,9 @@ NormalEquations DiscrepancyBasis::GivenKernel::equations(double strength,
     line.push_back(at.back() + 1);
   }
   const Half own = half(strength);
-  Eigen::MatrixXd lines = rotated_(line, Eigen::all);
+  MatrixXd lines = rotated_(line, Eigen::all);
   apply(own, lines);
-  const Eigen::VectorXd e = lines.row(0);
+  const VectorXd e = lines.row(0);
   const auto g = lines.bottomRows(lines.rows() - 1);
   NormalEquations result;
   result.columns = std::move(columns);

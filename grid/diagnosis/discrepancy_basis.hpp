@@ -17,11 +17,11 @@
 /// and 2.1.5, and 8.3.1 for the tridiagonal form.)
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -40,8 +40,8 @@ class DiscrepancyBasis {
     struct Diagonal {
       double ee = 0.0;
       double log_det = 0.0;  ///< of V and of the discrepancy
-      Eigen::VectorXd ge;    ///< a column each
-      Eigen::VectorXd gg;
+      VectorXd ge;           ///< a column each
+      VectorXd gg;
     };
     Diagonal diagonal(double strength) const;
     /// All inner products of some of the columns (regressors, ascending).
@@ -51,18 +51,18 @@ class DiscrepancyBasis {
     friend class DiscrepancyBasis;
     /// H with (1 + s^2 B B')^-1 = 1 - B Q H' H Q' B' of a strength: two diagonals.
     struct Half {
-      Eigen::ArrayXd on;     ///< r
-      Eigen::ArrayXd above;  ///< r, each column's entry in the row before; the first is 0
+      ArrayXd on;            ///< r
+      ArrayXd above;         ///< r, each column's entry in the row before; the first is 0
       double log_det = 0.0;  ///< |1 + s^2 B'B|
     };
     Half half(double strength) const;
     /// Replaces rows E'BQ by E'BQH'.
-    static void apply(const Half& half, Eigen::MatrixXd& lines);
+    static void apply(const Half& half, MatrixXd& lines);
     const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
     double trace_ = 0.0;
-    Eigen::ArrayXd on_;           ///< r, J's diagonal
-    Eigen::ArrayXd subdiagonal_;  ///< r - 1, the one next to it
-    Eigen::MatrixXd rotated_;     ///< E'BQ, (1 + columns) x r
+    ArrayXd on_;           ///< r, J's diagonal
+    ArrayXd subdiagonal_;  ///< r - 1, the one next to it
+    MatrixXd rotated_;     ///< E'BQ, (1 + columns) x r
   };
   /// Prepares `given` of this kernel for many sets of columns, at the cost of as many columns as the kernel has.
   void prepare(std::size_t kernel);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "grid/diagnosis/discrepancy.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -135,11 +136,11 @@ const DiscrepancyFamily& length_discrepancies(bool ordered) {
 const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered) {
   static const auto with_single = [](DiscrepancyFamily family) {
     constexpr std::array kPlaceMm = {150.0, 300.0, 600.0};
-    constexpr Eigen::Index kLengths = 4;
+    constexpr Index kLengths = 4;
     constexpr double kHalf = 0.5;
     for (DiscrepancyKernel& own : family.kernels) own.prior *= kHalf;
     for (const double place_mm : kPlaceMm) {
-      for (Eigen::Index length = 0; length < kLengths; ++length) {
+      for (Index length = 0; length < kLengths; ++length) {
         DiscrepancyField field{Coordinate::place, place_mm, FieldEntry::lengths};
         field.alone = length;
         family.kernels.push_back({{field}, kHalf / as_double(kPlaceMm.size() * kLengths)});

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "grid/diagnosis/ties.hpp"
+#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
@@ -70,7 +71,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
 
 /// Columns that are nonzero only in the left-out rows become exactly 0, not a rounding difference.
 void clear_unobserved_columns(const NormalEquations& before, NormalEquations& equations) {
-  for (Eigen::Index i = 0; i < equations.gg.rows(); ++i) {
+  for (Index i = 0; i < equations.gg.rows(); ++i) {
     if (equations.gg(i, i) > kNothingLeft * before.gg(i, i)) continue;
     equations.gg.row(i).setZero();
     equations.gg.col(i).setZero();
@@ -103,7 +104,7 @@ std::size_t home_of(std::vector<MarginalisedSystem>& systems, Flags outliers) {
 
 /// Sets a system's equations to these inner products of its residual and columns.
 void take_inner(const LeaveOut::Kept& kept, NormalEquations& equations) {
-  const Eigen::Index count = kept.inner.cols() - 1;
+  const Index count = kept.inner.cols() - 1;
   equations.ee = kept.inner(0, 0);
   equations.ge = kept.inner.col(0).tail(count);
   equations.gg = kept.inner.bottomRightCorner(count, count);
@@ -134,8 +135,8 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number, int d
   RegressorSet columns;
   for (const CandidateModel& model : models) append_all(columns, model.regressors);
   sort_unique(columns);
-  const Eigen::MatrixXd e = residual_and(marginalised, columns);
-  const Eigen::MatrixXd pattern = discrepancy_columns(system_, marginalised, discrepancy);
+  const MatrixXd e = residual_and(marginalised, columns);
+  const MatrixXd pattern = discrepancy_columns(system_, marginalised, discrepancy);
   Factorisation factorised{
       number,
       discrepancy,
@@ -179,10 +180,10 @@ Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs cou
     const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
     const Rows out = whole.kept.positions(units);
     const NormalEquations equations = downdated_equations(factorised, out);
-    const Eigen::Index rows = factorised.rows.rows() - std::ssize(out);
+    const Index rows = factorised.rows.rows() - std::ssize(out);
     const NoiseDensity noise(system_.noise_dof, rows);
     const double power = count_as == CountAs::all ? as_double(factorised.rows.rows()) /
-                                                        as_double(std::max<Eigen::Index>(rows, 1))
+                                                        as_double(std::max<Index>(rows, 1))
                                                   : 1.0;
     const double price =
         log_price_of_outliers(system_, with_units(system_, whole.outliers, units, false));

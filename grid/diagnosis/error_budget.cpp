@@ -7,6 +7,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/other_places.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -27,7 +28,7 @@ namespace {
 
 constexpr double kPartMm = 100.0;
 
-using Shifts = std::vector<Eigen::Vector2d>;
+using Shifts = std::vector<Vector2d>;
 
 BudgetLine::ChangesWith changes_with(const Effect& effect) {
   if (effect.by_direction) return BudgetLine::ChangesWith::direction;
@@ -72,7 +73,7 @@ std::optional<double> over_a_part(const std::vector<Corner>& corners, const At& 
   for (const Corner& there : corners) {
     const auto whitened = at(there);
     if (!whitened) continue;
-    const Eigen::Vector2d first = error_of_unit(there.system, *whitened, 0);
+    const Vector2d first = error_of_unit(there.system, *whitened, 0);
     for (const std::size_t u : {std::size_t{1}, std::size_t{2}}) {
       const double change = (error_of_unit(there.system, *whitened, u) - first).norm();
       most = std::max(most.value_or(0.0), change);
@@ -91,23 +92,23 @@ std::optional<double> part_of_cause(const Analysis& a, const std::vector<Corner>
 }
 
 std::optional<double> part_of_settings(const Analysis& a, const std::vector<Corner>& corners) {
-  const Eigen::Index shared = a.system.setting.size() - a.system.nuisances;
-  const Eigen::VectorXd change =
+  const Index shared = a.system.setting.size() - a.system.nuisances;
+  const VectorXd change =
       (a.system.setting + a.estimate.setting_change - a.session.stated_value).head(shared);
   return over_a_part(corners, [&](const Corner& there) {
-    return std::optional<Eigen::VectorXd>(there.system.by_setting.leftCols(shared) * change);
+    return std::optional<VectorXd>(there.system.by_setting.leftCols(shared) * change);
   });
 }
 
 std::optional<double> part_of_pattern(const Analysis& a, const std::vector<Corner>& corners) {
   return over_a_part(corners, [&](const Corner& there) {
-    Eigen::VectorXd whitened = Eigen::VectorXd::Zero(there.system.e.size());
+    VectorXd whitened = VectorXd::Zero(there.system.e.size());
     for (const SystemUnit& unit : there.system.units) {
       const SystemPlace& place = there.system.places[unit.places.front().place];
       whitened.segment<2>(unit.first_row) =
           unit.whitening * discrepancy_at(a.system, marginalised_system(a), a.estimate, place);
     }
-    return std::optional<Eigen::VectorXd>(std::move(whitened));
+    return std::optional<VectorXd>(std::move(whitened));
   });
 }
 
@@ -155,7 +156,7 @@ ErrorBudget error_budget(const Analysis& a) {
     line.without_mm = rms_length(without(as_delivered, part));
     budget.lines.push_back(line);
   };
-  const auto take = [&](const BudgetLine& line, const Eigen::VectorXd& whitened) {
+  const auto take = [&](const BudgetLine& line, const VectorXd& whitened) {
     const Shifts part = errors_of_units(a.system, whitened, units);
     rest = without(rest, part);
     add(line, part);
@@ -170,7 +171,7 @@ ErrorBudget error_budget(const Analysis& a) {
       line.part_mm = part_of_cause(a, corners, own, size);
     take(line, a.system.g.col(a.decision.regressors[k]) * size);
   }
-  const Eigen::VectorXd& left = a.estimate.left_given_discrepancy;
+  const VectorXd& left = a.estimate.left_given_discrepancy;
   if (a.decision.discrepancy_left) {
     take({.what = BudgetLine::What::unexplained, .part_mm = part_of_pattern(a, corners)},
          a.estimate.left - left);

@@ -9,25 +9,25 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 struct Solution {
-  Eigen::VectorXd value;
-  Eigen::MatrixXd covariance;
+  VectorXd value;
+  MatrixXd covariance;
 };
 
 /// `settings`: the settings' expected change; the sizes' is zero.
-Solution solve(Unknowns unknowns, const Eigen::VectorXd& settings, Eigen::VectorXd data,
+Solution solve(Unknowns unknowns, const VectorXd& settings, VectorXd data,
                const LowRankNoise* noise) {
-  Eigen::MatrixXd& design = unknowns.design;
+  MatrixXd& design = unknowns.design;
   if (noise != nullptr) {
     design = noise->half_solve(design);
     data = noise->half_solve(data);
   }
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(design.cols());
+  VectorXd mean = VectorXd::Zero(design.cols());
   mean.head(settings.size()) = settings;
   linear::add_product(data, -1.0, design, mean);
   // Scaled by the priors the normal equations are well conditioned: I + S A'A S.
-  const Eigen::MatrixXd scaled = linear::scaled_columns(design, unknowns.sigma);
+  const MatrixXd scaled = linear::scaled_columns(design, unknowns.sigma);
   const linear::Cholesky normal(linear::one_plus_gram(scaled));
-  const Eigen::VectorXd x = normal.solve(linear::product(linear::transposed(scaled), data));
+  const VectorXd x = normal.solve(linear::product(linear::transposed(scaled), data));
   return {mean + unknowns.sigma.cwiseProduct(x),
           unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }
@@ -63,18 +63,18 @@ RegressorSet Estimate::free_regressors() const {
   return result;
 }
 
-Eigen::Index Estimate::position(int regressor) const {
+Index Estimate::position(int regressor) const {
   return std::find(regressors.begin(), regressors.end(), regressor) - regressors.begin();
 }
 
 Unknowns unknowns_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                      const RegressorSet& free) {
-  const Eigen::Index settings = system.setting.size();
-  const Eigen::Index all = settings + std::ssize(free);
-  Unknowns result{Eigen::MatrixXd(marginalised.kept.size(), all), Eigen::VectorXd(all)};
+  const Index settings = system.setting.size();
+  const Index all = settings + std::ssize(free);
+  Unknowns result{MatrixXd(marginalised.kept.size(), all), VectorXd(all)};
   result.design.leftCols(settings) = marginalised.kept.of(system.by_setting);
   result.sigma.head(settings) = system.sigma;
-  for (Eigen::Index k = settings; k < all; ++k) {
+  for (Index k = settings; k < all; ++k) {
     const int column = free[as_size(k - settings)];
     result.design.col(k) = marginalised.kept(system.g.col(column));
     result.sigma(k) = wide_coefficient_sigma(system, marginalised, column);
@@ -102,9 +102,9 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   Estimate result;
   result.regressors = regressors;
   const auto settings = system.setting.size();
-  result.coefficient = Eigen::VectorXd::Zero(std::ssize(regressors));
+  result.coefficient = VectorXd::Zero(std::ssize(regressors));
   result.coefficient_sigma = result.coefficient;
-  Eigen::VectorXd data = system.e;
+  VectorXd data = system.e;
   for (std::size_t k = 0; k < regressors.size(); ++k) {
     if (system.regressor(regressors[k]).fixed) {
       result.coefficient(as_index(k)) = 1.0;
@@ -134,17 +134,17 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
   }
   result.setting_change = solution.value.head(settings);
-  Eigen::VectorXd left = data;
+  VectorXd left = data;
   linear::add_product(left, -1.0, system.by_setting, result.setting_change);
   for (std::size_t k = 0; k < result.free.size(); ++k) {
     const auto at = as_index(result.free[k]);
-    const Eigen::Index column = settings + as_index(k);
+    const Index column = settings + as_index(k);
     result.coefficient(at) = solution.value(column);
     left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
   result.left = left;
   result.left_given_discrepancy = left;
-  const Eigen::VectorXd kept = marginalised.kept(left);
+  const VectorXd kept = marginalised.kept(left);
   double quadratic = kept.squaredNorm();
   if (noise != nullptr) {
     result.discrepancy = noise->process;
@@ -152,14 +152,13 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     quadratic = kept.dot(result.discrepancy_weights);
     take_discrepancy_out(system, marginalised, result);
   }
-  const Eigen::VectorXd off =
-      (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
+  const VectorXd off = (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
   const NoiseDensity density(system.noise_dof, marginalised.kept.size());
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
   for (std::size_t k = 0; k < result.free.size(); ++k) {
-    const Eigen::Index column = settings + as_index(k);
+    const Index column = settings + as_index(k);
     result.coefficient_sigma(as_index(result.free[k])) =
         std::sqrt(result.covariance(column, column));
   }
@@ -173,10 +172,9 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   return result;
 }
 
-Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised, const Estimate& estimate,
-                               const SystemPlace& place) {
-  Eigen::Vector2d mm = Eigen::Vector2d::Zero();
+Vector2d discrepancy_at(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                        const Estimate& estimate, const SystemPlace& place) {
+  Vector2d mm = Vector2d::Zero();
   if (estimate.discrepancy_weights.size() == 0) return mm;
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
     const SystemUnit& unit = system.units[kept.unit];
@@ -190,30 +188,28 @@ Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
   return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
 }
 
-Eigen::VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
-                                const Eigen::VectorXd& left) {
+VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
+                         const VectorXd& left) {
   if (system.nuisances == 0) return left;
   return left +
          linear::product(nuisance_columns(system), estimate.setting_change.tail(system.nuisances));
 }
 
-Eigen::Vector2d error_of_unit(const RegressorSystem& system, const Eigen::VectorXd& whitened,
-                              std::size_t unit) {
+Vector2d error_of_unit(const RegressorSystem& system, const VectorXd& whitened, std::size_t unit) {
   const SystemUnit& own = system.units[unit];
-  const Eigen::Vector2d mm = own.unwhitened(whitened);
+  const Vector2d mm = own.unwhitened(whitened);
   return own.reads_chains ? tool_shift(system.places[own.places.front().place], mm) : mm;
 }
 
-std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
-                                             const Eigen::VectorXd& whitened,
-                                             const Indices& units) {
-  std::vector<Eigen::Vector2d> result;
+std::vector<Vector2d> errors_of_units(const RegressorSystem& system, const VectorXd& whitened,
+                                      const Indices& units) {
+  std::vector<Vector2d> result;
   for (const std::size_t unit : units) result.push_back(error_of_unit(system, whitened, unit));
   return result;
 }
 
 double rms_of_units_mm(const RegressorSystem& system, const KeptRows& kept,
-                       const Eigen::VectorXd& whitened, const Indices& units) {
+                       const VectorXd& whitened, const Indices& units) {
   double sum = 0.0;
   double count = 0.0;
   for (const KeptRows::Unit& unit : kept.units()) {
@@ -231,21 +227,21 @@ double noise_of_units_mm(const RegressorSystem& system, const Indices& units) {
   return std::sqrt(sum / as_double(units.size()));
 }
 
-Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit) {
+Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit) {
   const SystemUnit& own = system.units[unit];
-  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
+  Matrix2d noise = Matrix2d::Zero();
   if (!own.reads_chains) {
-    const Eigen::RowVectorXd nuisance = nuisance_columns(system).row(own.first_row) *
-                                        system.sigma.tail(system.nuisances).asDiagonal();
+    const RowVectorXd nuisance = nuisance_columns(system).row(own.first_row) *
+                                 system.sigma.tail(system.nuisances).asDiagonal();
     noise(0, 0) = std::pow(own.sigma(), 2) * (1.0 + nuisance.squaredNorm());
     return noise;
   }
-  const Eigen::Matrix2d to_tool =
+  const Matrix2d to_tool =
       system.places[own.places.front().place].state.by_mark.inverse() * own.whitening.inverse();
   return to_tool * to_tool.transpose();
 }
 
-Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm) {
+Vector2d tool_shift(const SystemPlace& place, const Vector2d& chain_mm) {
   // If chains are read too short, the model puts the tool nearer to the motors than it landed.
   return -(place.state.by_mark.inverse() * chain_mm);
 }

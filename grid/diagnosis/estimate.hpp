@@ -4,40 +4,40 @@
 /// comparison; and the residual at every point, including held-out ones.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 struct Estimate {
   RegressorSet regressors;
   /// q, from the state of the system: settings in their units, the nuisances after them.
-  Eigen::VectorXd setting_change;
-  Eigen::MatrixXd setting_covariance;  ///< q x q
-  Eigen::VectorXd coefficient;         ///< for each regressor
+  VectorXd setting_change;
+  MatrixXd setting_covariance;  ///< q x q
+  VectorXd coefficient;         ///< for each regressor
   /// 0 if the size is a whole number; at a bound, the sigma from noise alone.
-  Eigen::VectorXd coefficient_sigma;
-  double noise_square = 1.0;               ///< s^2
-  Eigen::VectorXd left;                    ///< n whitened rows, the discrepancy not taken out
-  Eigen::VectorXd left_given_discrepancy;  ///< the same with the discrepancy taken out
+  VectorXd coefficient_sigma;
+  double noise_square = 1.0;        ///< s^2
+  VectorXd left;                    ///< n whitened rows, the discrepancy not taken out
+  VectorXd left_given_discrepancy;  ///< the same with the discrepancy taken out
   Discrepancy discrepancy;
-  Eigen::VectorXd discrepancy_weights;  ///< N, one for each kept row; empty without a discrepancy
+  VectorXd discrepancy_weights;  ///< N, one for each kept row; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.
-  Eigen::MatrixXd covariance;
+  MatrixXd covariance;
   Indices free;  ///< positions in `regressors`
 
   RegressorSet free_regressors() const;
   /// Index of one of the model's regressors in this estimate.
-  Eigen::Index position(int regressor) const;
+  Index position(int regressor) const;
 };
 
 /// The linear unknowns of a model: the settings, nuisances included, then the sizes of some regressors.
 struct Unknowns {
-  Eigen::MatrixXd design;  ///< N x unknowns
-  Eigen::VectorXd sigma;   ///< of each beforehand
+  MatrixXd design;  ///< N x unknowns
+  VectorXd sigma;   ///< of each beforehand
 };
 Unknowns unknowns_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                      const RegressorSet& free);
@@ -60,30 +60,28 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
                   const RegressorSet& regressors, const DiscrepancyNoise* noise);
 
 /// The model discrepancy of either chain at a place [mm]; zero without one.
-Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised, const Estimate& estimate,
-                               const SystemPlace& place);
+Vector2d discrepancy_at(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                        const Estimate& estimate, const SystemPlace& place);
 
 /// `left` with the nuisances' share added back: the machine's residual. For points `left` itself.
-Eigen::VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
-                                const Eigen::VectorXd& left);
+VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
+                         const VectorXd& left);
 
 /// A unit's whitened residual in mm: a shift of the tool for chain readings; for a distance (excess
 /// length, 0).
-Eigen::Vector2d error_of_unit(const RegressorSystem& system, const Eigen::VectorXd& whitened,
-                              std::size_t unit);
-std::vector<Eigen::Vector2d> errors_of_units(const RegressorSystem& system,
-                                             const Eigen::VectorXd& whitened, const Indices& units);
+Vector2d error_of_unit(const RegressorSystem& system, const VectorXd& whitened, std::size_t unit);
+std::vector<Vector2d> errors_of_units(const RegressorSystem& system, const VectorXd& whitened,
+                                      const Indices& units);
 /// Root mean square over the kept units in mm: of the tool where chains were read, of distances, or of one belt. `units`
 /// empty: all units.
 double rms_of_units_mm(const RegressorSystem& system, const KeptRows& kept,
-                       const Eigen::VectorXd& whitened, const Indices& units = {});
+                       const VectorXd& whitened, const Indices& units = {});
 /// Its covariance with noise as stated.
-Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
+Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
 /// Root mean square of that over some units.
 double noise_of_units_mm(const RegressorSystem& system, const Indices& units);
 
 /// A chain residual (read minus predicted) as an error of the tool [mm]: where it landed minus where the model has it.
-Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);
+Vector2d tool_shift(const SystemPlace& place, const Vector2d& chain_mm);
 
 }  // namespace chaintrue::grid::diagnosis

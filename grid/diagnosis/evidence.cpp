@@ -21,7 +21,7 @@ double log_mass(double mean, double sigma, double low, double high) {
 
 }  // namespace
 
-NoiseDensity::NoiseDensity(double dof, Eigen::Index rows) : dof_(dof), rows_(as_double(rows)) {
+NoiseDensity::NoiseDensity(double dof, Index rows) : dof_(dof), rows_(as_double(rows)) {
   const double constant = std::lgamma(0.5 * (rows_ + dof)) - std::lgamma(0.5 * dof) -
                           0.5 * rows_ * std::log(std::numbers::pi);
   const auto component = [&](double scale, double prior) {
@@ -57,7 +57,7 @@ NoiseDensity::Averages NoiseDensity::averages(double quadratic) const {
   return {most + std::log(sum), squares / sum / (rows_ + dof_ - 2.0), 1.0 - as_stated / sum};
 }
 
-double log_price_of_outlier(Eigen::Index rows) {
+double log_price_of_outlier(Index rows) {
   return std::log(kOutlierPrior) -
          0.5 * as_double(rows) * std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
 }
@@ -75,11 +75,10 @@ double log_price_of_outliers(const RegressorSystem& system, const Flags& outlier
   for (std::size_t k = 0; k < outliers.size(); ++k) {
     const OutlierGroup& group = system.groups[k];
     const int unit = system.unit_of_row[as_size(group.first_row)];
-    Eigen::Index& own = of_unit[as_size(unit)];
+    Index& own = of_unit[as_size(unit)];
     if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
   }
-  for (const Eigen::Index directions : of_unit)
-    price += as_double(directions) * log_price_of_outlier(1);
+  for (const Index directions : of_unit) price += as_double(directions) * log_price_of_outlier(1);
   return price;
 }
 
@@ -88,8 +87,8 @@ MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& 
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
   marginalised.log_outliers = log_price_of_outliers(system, outliers);
-  const Eigen::MatrixXd a = marginalised.kept.of(system.by_setting);
-  Eigen::VectorXd e = marginalised.kept(system.e);
+  const MatrixXd a = marginalised.kept.of(system.by_setting);
+  VectorXd e = marginalised.kept(system.e);
   linear::add_product(e, -1.0, a, system.expected_change);
   marginalised.root = CovarianceRoot(linear::scaled_columns(a, system.sigma));
   marginalised.log_det = marginalised.root.log_det();
@@ -101,10 +100,10 @@ MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outli
   MarginalisedSystem marginalised = marginalise_rows(system, outliers);
   marginalised.g = system.g.mapped([&](const auto& columns) {
     // With hundreds of visits they are the largest matrix of all, so nothing else is of that size.
-    constexpr Eigen::Index kAtOnce = 256;
-    Eigen::MatrixXd result(marginalised.kept.size(), columns.cols());
-    for (Eigen::Index at = 0; at < columns.cols(); at += kAtOnce) {
-      const Eigen::Index count = std::min(kAtOnce, columns.cols() - at);
+    constexpr Index kAtOnce = 256;
+    MatrixXd result(marginalised.kept.size(), columns.cols());
+    for (Index at = 0; at < columns.cols(); at += kAtOnce) {
+      const Index count = std::min(kAtOnce, columns.cols() - at);
       result.middleCols(at, count) =
           marginalised.root.solve(marginalised.kept.of(columns.middleCols(at, count)));
     }
@@ -119,20 +118,20 @@ LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept)
 }
 
 double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
-                       const Eigen::VectorXd& column) {
+                       const VectorXd& column) {
   return nuisance_noise(system, kept).half_solve(kept(column)).norm();
 }
 
-Eigen::VectorXd left_by(const KeptRows& kept, const Eigen::MatrixXd& columns,
-                        const Eigen::VectorXd& sigma, Eigen::VectorXd rows) {
-  const Eigen::MatrixXd scaled = linear::scaled_columns(kept.of(columns), sigma);
-  const Eigen::VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
-                                .solve(linear::product(linear::transposed(scaled), kept(rows)));
+VectorXd left_by(const KeptRows& kept, const MatrixXd& columns, const VectorXd& sigma,
+                 VectorXd rows) {
+  const MatrixXd scaled = linear::scaled_columns(kept.of(columns), sigma);
+  const VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
+                         .solve(linear::product(linear::transposed(scaled), kept(rows)));
   linear::add_product(rows, -1.0, columns, sigma.cwiseProduct(x));
   return rows;
 }
 
-Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column) {
+VectorXd reduced(const MarginalisedSystem& marginalised, const VectorXd& column) {
   return marginalised.root.solve(marginalised.kept(column));
 }
 
@@ -149,13 +148,13 @@ double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedS
   return kWideSignalToNoise / std::max(reduced_length(system, marginalised, regressor), 1e-12);
 }
 
-Eigen::Index NormalEquations::position(int column) const {
+Index NormalEquations::position(int column) const {
   const auto found = std::lower_bound(columns.begin(), columns.end(), column);
   return as_index(found - columns.begin());
 }
 
-Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
-                              Eigen::VectorXd squares) {
+VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
+                       VectorXd squares) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double sigma = regressors[as_size(columns[i])].coefficient_sigma;
     if (sigma > 0.0) squares(as_index(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
@@ -168,7 +167,7 @@ NormalEquations normal_equations(const RegressorSystem& system,
   NormalEquations equations;
   sort(columns);
   equations.columns = std::move(columns);
-  const Eigen::MatrixXd g = marginalised.g.dense(equations.columns);
+  const MatrixXd g = marginalised.g.dense(equations.columns);
   equations.ee = marginalised.e.squaredNorm();
   equations.ge = linear::product(linear::transposed(g), marginalised.e);
   equations.gg = linear::gram(g);
@@ -178,8 +177,8 @@ NormalEquations normal_equations(const RegressorSystem& system,
   return equations;
 }
 
-Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns) {
-  Eigen::MatrixXd e(marginalised.e.size(), std::ssize(columns) + 1);
+MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns) {
+  MatrixXd e(marginalised.e.size(), std::ssize(columns) + 1);
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
   return e;
@@ -200,9 +199,9 @@ Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSyst
   return {kernel, family.strength_of(discrepancy) / std::sqrt(std::max(trace, 1e-300))};
 }
 
-Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
-                                    const MarginalisedSystem& marginalised, int discrepancy) {
-  if (discrepancy < 0) return Eigen::MatrixXd(marginalised.kept.size(), 0);
+MatrixXd discrepancy_columns(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                             int discrepancy) {
+  if (discrepancy < 0) return MatrixXd(marginalised.kept.size(), 0);
   const Discrepancy process = discrepancy_of(system, marginalised, discrepancy);
   return process.sigma_mm * discrepancy_factor(system, marginalised.kept, process.kernel);
 }
@@ -225,16 +224,15 @@ struct FreeEquations {
 };
 
 FreeEquations free_equations(const NormalEquations& equations,
-                             const std::vector<Regressor>& regressors,
-                             std::span<const Eigen::Index> set) {
-  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
+                             const std::vector<Regressor>& regressors, std::span<const Index> set) {
+  const auto regressor = [&](Index i) -> const Regressor& {
     return regressors[as_size(equations.columns[as_size(i)])];
   };
-  std::array<Eigen::Index, kMostFreeRegressors> free{};
-  Eigen::Index m = 0;
+  std::array<Index, kMostFreeRegressors> free{};
+  Index m = 0;
   FreeEquations result;
   result.ee = equations.ee;
-  for (const Eigen::Index i : set) {
+  for (const Index i : set) {
     if (!regressor(i).fixed) {
       if (m == kMostFreeRegressors)
         throw std::length_error(
@@ -243,7 +241,7 @@ FreeEquations free_equations(const NormalEquations& equations,
       continue;
     }
     result.ee -= 2.0 * equations.ge(i);
-    for (const Eigen::Index j : set) {
+    for (const Index j : set) {
       if (regressor(j).fixed) result.ee += equations.gg(i, j);
     }
   }
@@ -251,8 +249,8 @@ FreeEquations free_equations(const NormalEquations& equations,
   for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high})
     values->resize(m);
   result.gram.resize(m, m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Eigen::Index at = free[as_size(i)];
+  for (Index i = 0; i < m; ++i) {
+    const Index at = free[as_size(i)];
     const Regressor& own = regressor(at);
     if (!(equations.gg(at, at) > 0.0)) {
       result.is_empty_column = true;
@@ -264,11 +262,11 @@ FreeEquations free_equations(const NormalEquations& equations,
     result.high(i) = own.highest * length(i);
     result.refined[as_size(i)] = own.refined;
     double right = equations.ge(at);
-    for (const Eigen::Index j : set) {
+    for (const Index j : set) {
       if (regressor(j).fixed) right -= equations.gg(at, j);
     }
     result.c(i) = right / length(i);
-    for (Eigen::Index j = 0; j <= i; ++j) {
+    for (Index j = 0; j <= i; ++j) {
       result.gram(i, j) = result.gram(j, i) =
           equations.gg(at, free[as_size(j)]) / (length(i) * length(j));
     }
@@ -279,14 +277,14 @@ FreeEquations free_equations(const NormalEquations& equations,
 /// Replaces a positive definite matrix by its inverse, by Gauss-Jordan elimination; returns its determinant.
 double invert(FewByFew& a) {
   double determinant = 1.0;
-  for (Eigen::Index k = 0; k < a.rows(); ++k) {
+  for (Index k = 0; k < a.rows(); ++k) {
     const double pivot = std::exchange(a(k, k), 1.0);
     determinant *= pivot;
-    for (Eigen::Index j = 0; j < a.cols(); ++j) a(k, j) /= pivot;
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    for (Index j = 0; j < a.cols(); ++j) a(k, j) /= pivot;
+    for (Index i = 0; i < a.rows(); ++i) {
       if (i == k) continue;
       const double factor = std::exchange(a(i, k), 0.0);
-      for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(k, j);
+      for (Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(k, j);
     }
   }
   return determinant;
@@ -295,7 +293,7 @@ double invert(FewByFew& a) {
 /// Set evidence for one prior sigma of the signal-to-noise ratio.
 SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDensity& noise,
                         double prior_sigma) {
-  const Eigen::Index m = free.c.size();
+  const Index m = free.c.size();
   const FewValues prior = prior_sigma * free.prior_length;
   FewByFew a = free.gram;
   a.diagonal() += prior.cwiseAbs2().cwiseInverse();
@@ -308,7 +306,7 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
   result.log_evidence =
       averages.log_density - 0.5 * log_det - 0.5 * std::log(determinant * prior.cwiseAbs2().prod());
   const double s = std::sqrt(averages.noise_square);
-  for (Eigen::Index i = 0; i < m; ++i) {
+  for (Index i = 0; i < m; ++i) {
     const double sigma = s * std::sqrt(a(i, i));
     // Farther beyond its range than noise explains, and not merely about null: the data need
     // another cause.
@@ -328,7 +326,7 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
 }  // namespace
 
 SetEvidence set_evidence(const NormalEquations& equations, const std::vector<Regressor>& regressors,
-                         std::span<const Eigen::Index> set, const NoiseDensity& noise) {
+                         std::span<const Index> set, const NoiseDensity& noise) {
   const FreeEquations free = free_equations(equations, regressors, set);
   // If the kept rows do not depend on a cause they give no evidence for it.
   if (free.is_empty_column) return {kMinusInfinity, 0.0, 0.0};
@@ -347,9 +345,9 @@ EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
       noise_(noise),
       outside_(equations.ge.size(), std::ssize(kStrengthPriors)) {
   const double s = std::sqrt(noise.noise_square(equations.ee));
-  for (Eigen::Index i = 0; i < outside_.rows(); ++i) {
+  for (Index i = 0; i < outside_.rows(); ++i) {
     const double unit = s / std::sqrt(equations.prior_square(i));
-    for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
+    for (Index k = 0; k < outside_.cols(); ++k) {
       const double sigma = unit * kStrengthPriors[as_size(k)].sigma;
       outside_(i, k) = regressor(i).fixed
                            ? 0.0
@@ -358,34 +356,34 @@ EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
   }
 }
 
-Eigen::ArrayXd EvidenceBounds::with_each(std::span<const Eigen::Index> set) const {
-  const Eigen::MatrixXd& gg = equations_.gg;
+ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
+  const MatrixXd& gg = equations_.gg;
   double fixed_left = equations_.ee;
-  Eigen::ArrayXd of_data = equations_.ge;
-  for (const Eigen::Index i : set) {
+  ArrayXd of_data = equations_.ge;
+  for (const Index i : set) {
     if (!regressor(i).fixed) continue;
     fixed_left += gg(i, i) - 2.0 * of_data(i);
     of_data -= gg.col(i).array();
   }
-  Eigen::ArrayXd most = Eigen::ArrayXd::Constant(of_data.size(), kMinusInfinity);
-  for (Eigen::Index k = 0; k < outside_.cols(); ++k) {
+  ArrayXd most = ArrayXd::Constant(of_data.size(), kMinusInfinity);
+  for (Index k = 0; k < outside_.cols(); ++k) {
     const StrengthPrior& prior = kStrengthPriors[as_size(k)];
-    const auto occam = [&](Eigen::Index i, double square) {
+    const auto occam = [&](Index i, double square) {
       return outside_(i, k) -
              0.5 * std::log(square / equations_.prior_square(i) * prior.sigma * prior.sigma);
     };
-    const Eigen::ArrayXd precision = equations_.prior_square / (prior.sigma * prior.sigma);
+    const ArrayXd precision = equations_.prior_square / (prior.sigma * prior.sigma);
     // The columns of the set's factor, of all rows.
-    Eigen::MatrixXd factor(of_data.size(), std::ssize(set));
-    Eigen::Index rank = 0;
+    MatrixXd factor(of_data.size(), std::ssize(set));
+    Index rank = 0;
     double quadratic = fixed_left;
     double log_weight = std::log(prior.share) - 0.5 * equations_.log_det;
-    Eigen::ArrayXd left = of_data;
-    Eigen::ArrayXd square = gg.diagonal();
-    for (const Eigen::Index i : set) {
+    ArrayXd left = of_data;
+    ArrayXd square = gg.diagonal();
+    for (const Index i : set) {
       if (regressor(i).fixed) continue;
-      Eigen::VectorXd column = gg.col(i);
-      for (Eigen::Index j = 0; j < rank; ++j) column -= factor(i, j) * factor.col(j);
+      VectorXd column = gg.col(i);
+      for (Index j = 0; j < rank; ++j) column -= factor(i, j) * factor.col(j);
       const double own = square(i) + precision(i);
       log_weight += occam(i, own);
       factor.col(rank) = column / std::sqrt(own);
@@ -395,7 +393,7 @@ Eigen::ArrayXd EvidenceBounds::with_each(std::span<const Eigen::Index> set) cons
       square -= factor.col(rank).array().square();
       ++rank;
     }
-    for (Eigen::Index i = 0; i < most.size(); ++i) {
+    for (Index i = 0; i < most.size(); ++i) {
       double q = quadratic - 2.0 * left(i) + square(i);
       double own = log_weight;
       if (!regressor(i).fixed) {

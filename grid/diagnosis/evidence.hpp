@@ -23,7 +23,6 @@
 /// with a process.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,6 +32,7 @@
 
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -40,7 +40,7 @@ namespace chaintrue::grid::diagnosis {
 /// each of kLargerNoise.
 class NoiseDensity {
  public:
-  NoiseDensity(double dof, Eigen::Index rows);
+  NoiseDensity(double dof, Index rows);
 
   struct Averages {
     double log_density = 0.0;
@@ -72,7 +72,7 @@ struct MarginalisedSystem {
   Flags outliers;       ///< a flag for each outlier group
   KeptRows kept;        ///< N rows
   CovarianceRoot root;  ///< N x N, R of V = R R
-  Eigen::VectorXd e;    ///< N, R^-1 times the residual
+  VectorXd e;           ///< N, R^-1 times the residual
   RegressorColumns
       g;  ///< N x a column a regressor, R^-1 times it; none if only an estimate is made
   double log_det = 0.0;       ///< log |V|
@@ -81,7 +81,7 @@ struct MarginalisedSystem {
   std::vector<double> discrepancy_trace;
 };
 /// Natural logarithm of the prior times the density of one rejected unit with this many rows.
-double log_price_of_outlier(Eigen::Index rows);
+double log_price_of_outlier(Index rows);
 /// For all these groups; directions count separately.
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers);
 MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers);
@@ -94,13 +94,12 @@ double reduced_length(const RegressorSystem& system, const MarginalisedSystem& m
 /// appears in the readings.
 LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Length of a column's kept rows in units of that noise.
-double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
-                       const Eigen::VectorXd& column);
+double length_in_noise(const RegressorSystem& system, const KeptRows& kept, const VectorXd& column);
 /// The rows after subtracting these columns with the amplitudes that the kept rows give them.
-Eigen::VectorXd left_by(const KeptRows& kept, const Eigen::MatrixXd& columns,
-                        const Eigen::VectorXd& sigma, Eigen::VectorXd rows);
+VectorXd left_by(const KeptRows& kept, const MatrixXd& columns, const VectorXd& sigma,
+                 VectorXd rows);
 /// R^-1 of a column of all rows.
-Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column);
+VectorXd reduced(const MarginalisedSystem& marginalised, const VectorXd& column);
 /// One sigma of a regressor's coefficient under the wide prior of its size.
 double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                               int regressor);
@@ -118,30 +117,30 @@ double collinearity_of(const One& one, const Other& other) {
 struct NormalEquations {
   RegressorSet columns;  ///< m regressors, ascending
   double ee = 0.0;       ///< e'e
-  Eigen::VectorXd ge;    ///< m, g'e
-  Eigen::MatrixXd gg;    ///< m x m, g'g
+  VectorXd ge;           ///< m, g'e
+  MatrixXd gg;           ///< m x m, g'g
   /// m: the unit of the prior of a size. It is g'g without a discrepancy or, if the prior is on the
   /// size itself (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
-  Eigen::VectorXd prior_square;
+  VectorXd prior_square;
   double log_det = 0.0;  ///< of V and the discrepancy, without the noise's scale
-  Eigen::Index position(int column) const;
+  Index position(int column) const;
 };
 /// NormalEquations::prior_square of columns with these squares.
-Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
-                              Eigen::VectorXd squares);
+VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
+                       VectorXd squares);
 NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised, RegressorSet columns);
 
 /// The residual and these columns, N x (1 + columns).
-Eigen::MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns);
+MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns);
 
 /// Kernel and size of a discrepancy, in a marginalised system.
 Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                            int discrepancy);
 
 /// s F of a discrepancy (discrepancy_factor) in the kept rows; no columns for none.
-Eigen::MatrixXd discrepancy_columns(const RegressorSystem& system,
-                                    const MarginalisedSystem& marginalised, int discrepancy);
+MatrixXd discrepancy_columns(const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                             int discrepancy);
 
 /// Priors of a signal-to-noise ratio: the usual one, and the wide one.
 struct StrengthPrior {
@@ -164,7 +163,7 @@ struct SetEvidence {
 /// `set` holds positions in the normal equations. Minus infinity if a cause would have to leave its
 /// range. Throws std::length_error for more than kMostFreeRegressors that are not fixed.
 SetEvidence set_evidence(const NormalEquations& equations, const std::vector<Regressor>& regressors,
-                         std::span<const Eigen::Index> set, const NoiseDensity& noise);
+                         std::span<const Index> set, const NoiseDensity& noise);
 
 /// Upper bounds of log_evidence for sets with one more column, at the cost of an inner product each.
 ///
@@ -177,10 +176,10 @@ class EvidenceBounds {
   EvidenceBounds(const NormalEquations& equations, const std::vector<Regressor>& regressors,
                  const NoiseDensity& noise);
   /// For each column, added to this set.
-  [[nodiscard]] Eigen::ArrayXd with_each(std::span<const Eigen::Index> set) const;
+  [[nodiscard]] ArrayXd with_each(std::span<const Index> set) const;
 
  private:
-  const Regressor& regressor(Eigen::Index i) const {
+  const Regressor& regressor(Index i) const {
     return regressors_[as_size(equations_.columns[as_size(i)])];
   }
   const NormalEquations& equations_;

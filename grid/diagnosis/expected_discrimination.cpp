@@ -67,19 +67,17 @@ std::vector<Group> groups_of(const Analysis& a) {
 ///   mean + K C^-1 (residual),  design - K C^-1 X,  and K** - K C^-1 K' of its own
 /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
 /// \returns the last.
-Eigen::MatrixXd add_discrepancy(const Analysis& a, const RegressorSystem& system,
-                                const Estimate& fitted, const LowRankNoise& covariance,
-                                Eigen::VectorXd& mean, Eigen::MatrixXd& design) {
+MatrixXd add_discrepancy(const Analysis& a, const RegressorSystem& system, const Estimate& fitted,
+                         const LowRankNoise& covariance, VectorXd& mean, MatrixXd& design) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
-  const Eigen::MatrixXd k =
-      square * discrepancy_covariance(system, a.system, marginalised.kept, kernel);
-  const Eigen::MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
+  const MatrixXd k = square * discrepancy_covariance(system, a.system, marginalised.kept, kernel);
+  const MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
   linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(design, -1.0, k, covariance.solve(x));
-  Eigen::MatrixXd own = square * discrepancy_covariance(system, KeptRows::all(system), kernel);
-  linear::add_gram(own, -1.0, covariance.half_solve(Eigen::MatrixXd(k.transpose())));
+  MatrixXd own = square * discrepancy_covariance(system, KeptRows::all(system), kernel);
+  linear::add_gram(own, -1.0, covariance.half_solve(MatrixXd(k.transpose())));
   return without_negligible(own);
 }
 
@@ -90,18 +88,17 @@ void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& c
   const auto noise = discrepancy_noise(a.system, marginalised, h.discrepancy);
   const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise.get());
   // Holes not yet cut have their own columns, after all others.
-  const Eigen::Index settings = fitted.setting_change.size();
-  const Eigen::Index to_come = system.by_setting.cols() - settings;
+  const Index settings = fitted.setting_change.size();
+  const Index to_come = system.by_setting.cols() - settings;
   h.mean = linear::product(system.by_setting.leftCols(settings), fitted.setting_change);
   const auto free = std::ssize(fitted.free);
-  Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
+  MatrixXd design(system.by_setting.rows(), settings + free);
   design.leftCols(settings) = system.by_setting.leftCols(settings);
-  Eigen::Index column = settings;
+  Index column = settings;
   for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
     const Regressor& d = a.system.regressor(fitted.regressors[k]);
     const auto g = column_of_cause(d);
-    const Eigen::VectorXd column_of =
-        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
+    const VectorXd column_of = g ? *g : VectorXd(VectorXd::Zero(system.by_setting.rows()));
     h.mean += column_of * fitted.coefficient(as_index(k));
     if (contains(fitted.free, k)) {
       design.col(column++) = column_of;
@@ -118,19 +115,19 @@ void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& c
 
 /// D over these rows, for two alternatives.
 double distance(const Alternative& k, const Alternative& l, const Rows& rows) {
-  const Eigen::VectorXd difference = k.mean(rows) - l.mean(rows);
-  Eigen::MatrixXd covariance = 0.5 * (k.covariance(rows, rows) + l.covariance(rows, rows));
+  const VectorXd difference = k.mean(rows) - l.mean(rows);
+  MatrixXd covariance = 0.5 * (k.covariance(rows, rows) + l.covariance(rows, rows));
   covariance.diagonal().array() += 1.0;
   return linear::Cholesky(std::move(covariance)).half_solve(difference).squaredNorm();
 }
 
 /// D between all alternatives.
-Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives, const Rows& rows) {
+MatrixXd distances(const std::vector<Alternative>& alternatives, const Rows& rows) {
   const auto count = std::ssize(alternatives);
-  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
+  MatrixXd d = MatrixXd::Zero(count, count);
   if (rows.empty()) return d;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    for (Eigen::Index l = 0; l < k; ++l) {
+  for (Index k = 0; k < count; ++k) {
+    for (Index l = 0; l < k; ++l) {
       d(k, l) = d(l, k) = distance(alternatives[as_size(k)], alternatives[as_size(l)], rows);
     }
   }
@@ -138,9 +135,8 @@ Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives, const Ro
 }
 
 /// First and last but one alternative of each group.
-std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
-    const std::vector<Alternative>& alternatives) {
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> result;
+std::vector<std::pair<Index, Index>> groups_in(const std::vector<Alternative>& alternatives) {
+  std::vector<std::pair<Index, Index>> result;
   for (std::size_t k = 0; k < alternatives.size(); ++k) {
     const auto at = as_index(k);
     if (k == 0 || alternatives[k].group != alternatives[k - 1].group) result.emplace_back(at, at);
@@ -151,7 +147,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
 
 }  // namespace
 
-Eigen::MatrixXd without_negligible(const Eigen::MatrixXd& covariance) {
+MatrixXd without_negligible(const MatrixXd& covariance) {
   constexpr double kNegligible = 1e-4;
   return linear::outer(linear::PivotedCholesky(covariance).root(kNegligible));
 }
@@ -242,34 +238,33 @@ double chance_of_all(const std::vector<Rival>& rivals) {
 
 ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
                                                const Rows& rows) {
-  const Eigen::MatrixXd d = distances(alternatives, rows);
+  const MatrixXd d = distances(alternatives, rows);
   const auto groups = groups_in(alternatives);
-  const auto p = [&](Eigen::Index k) { return alternatives[as_size(k)].probability; };
+  const auto p = [&](Index k) { return alternatives[as_size(k)].probability; };
   const auto sum = [](const auto& group, const auto& term) {
     double total = 0.0;
-    for (Eigen::Index k = group.first; k < group.second; ++k) total += term(k);
+    for (Index k = group.first; k < group.second; ++k) total += term(k);
     return total;
   };
   ExpectedDiscrimination result;
   for (const auto& own : groups) {
     for (const auto& other : groups) {
       if (other.first >= own.first) break;
-      const double mean = sum(own, [&](Eigen::Index k) {
-        return sum(other, [&](Eigen::Index l) { return p(k) * p(l) * std::exp(-d(k, l) / 8.0); });
+      const double mean = sum(own, [&](Index k) {
+        return sum(other, [&](Index l) { return p(k) * p(l) * std::exp(-d(k, l) / 8.0); });
       });
       result.confusion += mean / std::sqrt(sum(own, p) * sum(other, p));
     }
-    result.named_alone += sum(own, [&](Eigen::Index k) {
-      const double weight =
-          sum(own, [&](Eigen::Index j) { return p(j) * std::exp(-0.5 * d(k, j)); });
+    result.named_alone += sum(own, [&](Index k) {
+      const double weight = sum(own, [&](Index j) { return p(j) * std::exp(-0.5 * d(k, j)); });
       std::vector<Rival> rivals;
       for (const auto& other : groups) {
         if (other.first == own.first) continue;
-        const auto against = [&](Eigen::Index l) { return 0.5 * d(k, l) - std::log(p(l)); };
-        Eigen::Index l = other.first;
-        for (Eigen::Index i = l; i < other.second; ++i) l = against(i) < against(l) ? i : l;
+        const auto against = [&](Index l) { return 0.5 * d(k, l) - std::log(p(l)); };
+        Index l = other.first;
+        for (Index i = l; i < other.second; ++i) l = against(i) < against(l) ? i : l;
         const double rival =
-            sum(other, [&](Eigen::Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
+            sum(other, [&](Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
         rivals.push_back({0.5 * d(k, l) + std::log(weight / rival), d(k, l)});
       }
       return rivals.empty() ? p(k) : p(k) * chance_of_all(rivals);

@@ -27,22 +27,22 @@
 /// grid/diagnosis.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 struct Alternative {
   std::size_t group = 0;
   RegressorSet regressors;
-  int discrepancy = -1;        ///< with them, as in the most probable model of these causes
-  double probability = 0.0;    ///< their sum over all alternatives is 1
-  Eigen::VectorXd mean;        ///< m_k, whitened, of every row of the session of candidates
-  Eigen::MatrixXd covariance;  ///< S_k without the noise
+  int discrepancy = -1;      ///< with them, as in the most probable model of these causes
+  double probability = 0.0;  ///< their sum over all alternatives is 1
+  VectorXd mean;             ///< m_k, whitened, of every row of the session of candidates
+  MatrixXd covariance;       ///< S_k without the noise
 };
 
 /// The remaining sets of causes, each at its best places, by group and the most probable first,
@@ -65,7 +65,7 @@ std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
 void normalise(std::vector<Alternative>& alternatives);
 
 /// A covariance of whitened rows without what is below a hundredth of the noise.
-[[nodiscard]] Eigen::MatrixXd without_negligible(const Eigen::MatrixXd& covariance);
+[[nodiscard]] MatrixXd without_negligible(const MatrixXd& covariance);
 
 struct ExpectedDiscrimination {
   double confusion = 0.0;

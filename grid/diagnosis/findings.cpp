@@ -10,6 +10,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
@@ -52,7 +53,7 @@ class PlaceOfCause {
 
  private:
   /// Derivative of the whitened signature by the place; empty if the machine cannot have such an effect.
-  std::optional<Eigen::VectorXd> slope_by_place() const {
+  std::optional<VectorXd> slope_by_place() const {
     // Step in radians: central differences of a wave are accurate to h^2 / 6, rounding to 1e-16 / h.
     constexpr double kStep = 1e-3;
     const auto at = [&](double step) {
@@ -69,16 +70,16 @@ class PlaceOfCause {
   /// The same with each setting, n x q. A wave along a chain moves along it with the chain's length:
   /// a motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. 0 if such a
   /// machine is invalid.
-  Eigen::MatrixXd slope_by_settings() const {
+  MatrixXd slope_by_settings() const {
     // Step in sigmas: central differences of a wave of 60 mm are accurate to 1e-7 for a motor known
     // to 3 mm.
     constexpr double kStep = 1e-3;
     const RegressorSystem& system = a_.system;
-    Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
-    for (Eigen::Index column = 0; column < a_.session.setting_columns(); ++column) {
+    MatrixXd slope = MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
+    for (Index column = 0; column < a_.session.setting_columns(); ++column) {
       const double step = kStep * system.sigma(column);
-      const auto at = [&](double change) -> std::optional<Eigen::VectorXd> {
-        Eigen::VectorXd settings = system.setting;
+      const auto at = [&](double change) -> std::optional<VectorXd> {
+        VectorXd settings = system.setting;
         settings(column) += change;
         const auto state = moved_to(a_.session, a_.state, settings);
         if (!state) return std::nullopt;
@@ -106,12 +107,11 @@ class PlaceOfCause {
 
   /// The sigma of a continuous place, from the curvature of the likelihood with settings and all
   /// coefficients free.
-  double fitted_sigma(const Estimate& fitted, double coefficient,
-                      const Eigen::VectorXd& slope) const {
+  double fitted_sigma(const Estimate& fitted, double coefficient, const VectorXd& slope) const {
     const MarginalisedSystem& marginalised = marginalised_system(a_);
     Unknowns unknowns = unknowns_of(a_.system, marginalised, fitted.free_regressors());
     auto& [design, sigma] = unknowns;
-    const Eigen::Index last = sigma.size();
+    const Index last = sigma.size();
     design.leftCols(a_.system.setting.size()) +=
         coefficient * marginalised.kept.of(slope_by_settings());
     design.conservativeResize(Eigen::NoChange, last + 1);
@@ -122,10 +122,9 @@ class PlaceOfCause {
     sigma(last) =
         (place_.name.ends_with("_rad") ? std::min(range, kTurn) : range) / std::sqrt(12.0);
     if (a_.noise) design = a_.noise->covariance.half_solve(design);
-    const Eigen::MatrixXd scaled =
-        linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
+    const MatrixXd scaled = linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
     const linear::Cholesky normal(linear::one_plus_gram(scaled));
-    const Eigen::VectorXd column_of_inverse = normal.solve(Eigen::VectorXd::Unit(last + 1, last));
+    const VectorXd column_of_inverse = normal.solve(VectorXd::Unit(last + 1, last));
     // With a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
     // step either way.
     const double step = a_.noise ? step_of_places() : 0.0;
@@ -162,7 +161,7 @@ class PlaceOfCause {
 std::vector<ParameterEstimate> parameters_of(const Analysis& a, int column,
                                              const Estimate& fitted) {
   const Regressor& d = regressor(a, column);
-  const Eigen::Index at = fitted.position(column);
+  const Index at = fitted.position(column);
   const double coefficient = fitted.coefficient(at);
   const double sigma = fitted.coefficient_sigma(at);
   std::vector<ParameterEstimate> result;
@@ -201,7 +200,7 @@ Cause describe(const Analysis& a, std::size_t index) {
     RegressorSet set = others;
     set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
-    const Eigen::Index at = fitted.position(column);
+    const Index at = fitted.position(column);
     auto found = parameters_of(a, column, fitted);
     if (member == members.front()) {
       const double length = marginalised_system(a).g.col(column).norm();
@@ -282,7 +281,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     RegressorSet set = a.decision.regressors;
     if (!contains(set, column)) set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
-    const Eigen::Index at = fitted.position(column);
+    const Index at = fitted.position(column);
     const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
@@ -334,9 +333,9 @@ namespace {
 
 /// The residual of a one-row unit against the prediction by all others.
 Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Eigen::Index row = unit.first_row;
+  const Index row = unit.first_row;
   // The prediction includes the others' information on its holes, and its uncertainty.
-  const Eigen::VectorXd by_setting = a.system.by_setting.row(row);
+  const VectorXd by_setting = a.system.by_setting.row(row);
   const double variance = a.estimate.noise_square + by_setting.dot(linear::product(
                                                         a.estimate.setting_covariance, by_setting));
   const double off = a.estimate.left_given_discrepancy(row);
@@ -349,12 +348,12 @@ Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const Syst
 }
 
 Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_given_discrepancy);
+  const Vector2d chains = unit.unwhitened(a.estimate.left_given_discrepancy);
   Outlier outlier;
   outlier.index = own.index;
   // Where the tool would have to be, minus its mark.
   outlier.shift_mm = -tool_shift(a.system.places[unit.places.front().place], chains);
-  const Eigen::Vector2d whitened = unit.whitening * chains;
+  const Vector2d whitened = unit.whitening * chains;
   outlier.distance = whitened.norm() / std::sqrt(a.estimate.noise_square);
   return outlier;
 }

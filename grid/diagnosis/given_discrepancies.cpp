@@ -7,6 +7,7 @@
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/ties.hpp"
+#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
@@ -60,7 +61,7 @@ class Scout {
   const DiscrepancyFamily& family() const { return *system_.discrepancies; }
 
   /// log evidence of one regressor, without the common determinants and ignoring its bounds.
-  double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Eigen::Index k) const {
+  double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Index k) const {
     const Regressor& own = system_.regressor(plain_.columns[as_size(k)]);
     const NoiseDensity& noise = collector_.noise();
     if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
@@ -102,7 +103,7 @@ void search_given(const RegressorSystem& system, const NormalEquations& equation
   };
   const ColumnSet alone = positions(singles);
   sets.weigh({});
-  for (const Eigen::Index column : alone) sets.weigh({column});
+  for (const Index column : alone) sets.weigh({column});
   for (const RegressorSet& regressors : best_models) sets.weigh(positions(regressors));
   sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true},
             [&](const ColumnSet&) { return alone; });

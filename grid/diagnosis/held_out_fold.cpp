@@ -65,17 +65,16 @@ ObservationSet over_the_area(const Analysis& a) {
 }
 
 /// Expected drop and remaining uncertainty of the error over some units.
-ExpectedImprovement over_units(const RegressorSystem& there, const Eigen::VectorXd& moved,
-                               const Eigen::MatrixXd& design, const Eigen::MatrixXd& covariance) {
+ExpectedImprovement over_units(const RegressorSystem& there, const VectorXd& moved,
+                               const MatrixXd& design, const MatrixXd& covariance) {
   double drop = 0.0;
   double doubt = 0.0;
   for (const SystemUnit& unit : there.units) {
-    const Eigen::MatrixXd by_unknown = design.middleRows(unit.first_row, unit.rows);
+    const MatrixXd by_unknown = design.middleRows(unit.first_row, unit.rows);
     if (unit.reads_chains) {
-      const Eigen::Matrix2d to_tool =
-          there.places[unit.places.front().place].state.by_mark.inverse() *
-          unit.whitening.inverse();
-      const Eigen::MatrixXd tool = to_tool * by_unknown;
+      const Matrix2d to_tool = there.places[unit.places.front().place].state.by_mark.inverse() *
+                               unit.whitening.inverse();
+      const MatrixXd tool = to_tool * by_unknown;
       drop += (to_tool * moved.segment<2>(unit.first_row)).squaredNorm();
       doubt += linear::carried(tool, covariance).trace();
     } else {
@@ -92,13 +91,13 @@ ExpectedImprovement over_units(const RegressorSystem& there, const Eigen::Vector
 ExpectedImprovement improvement_of_distances(const Analysis& a) {
   const Estimate plain = estimate_of(a, {});
   const Estimate named = estimate_of(a, a.decision.regressors);
-  const Eigen::VectorXd moved =
+  const VectorXd moved =
       left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
-  const Eigen::Index settings = a.system.by_setting.cols() - a.system.nuisances;
+  const Index settings = a.system.by_setting.cols() - a.system.nuisances;
   const auto free = std::ssize(named.free);
-  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(moved.size(), named.covariance.rows());
+  MatrixXd design = MatrixXd::Zero(moved.size(), named.covariance.rows());
   design.leftCols(settings) = a.system.by_setting.leftCols(settings);
-  for (Eigen::Index k = 0; k < free; ++k) {
+  for (Index k = 0; k < free; ++k) {
     design.col(a.system.by_setting.cols() + k) =
         a.system.g.col(named.regressors[named.free[as_size(k)]]);
   }
@@ -190,15 +189,14 @@ ExpectedImprovement expected_improvement(const Analysis& a) {
   const RegressorSet& causes = a.decision.regressors;
   const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
   const Estimate named = estimate_of(a, causes);
-  const Eigen::Index settings = a.system.by_setting.cols();
-  Eigen::MatrixXd design(there->by_setting.rows(), named.covariance.rows());
+  const Index settings = a.system.by_setting.cols();
+  MatrixXd design(there->by_setting.rows(), named.covariance.rows());
   design.leftCols(settings) = there->by_setting;
-  Eigen::VectorXd moved =
-      linear::product(there->by_setting, plain.setting_change - named.setting_change);
+  VectorXd moved = linear::product(there->by_setting, plain.setting_change - named.setting_change);
   for (std::size_t k = 0; k < causes.size(); ++k) {
     const Regressor& d = regressor(a, causes[k]);
     const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d);
-    const Eigen::VectorXd column = g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(moved.size()));
+    const VectorXd column = g ? *g : VectorXd(VectorXd::Zero(moved.size()));
     moved -= column * named.coefficient(as_index(k));
     const auto free = std::find(named.free.begin(), named.free.end(), k);
     if (free != named.free.end()) design.col(settings + (free - named.free.begin())) = column;

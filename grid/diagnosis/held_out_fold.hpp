@@ -9,11 +9,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/downdating.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -45,7 +45,7 @@ DecidedWithout decided_without(const Analysis& analysis, const Downdating& downd
 
 /// Errors of the tool in mm with some causes, without a surface and with one.
 struct ErrorsWith {
-  std::vector<Eigen::Vector2d> machine, and_surface;
+  std::vector<Vector2d> machine, and_surface;
 };
 /// One entry for every choice of causes.
 struct Errors {

@@ -22,7 +22,7 @@ bool names_agree(const Fold& fold, const Analysis& a) {
 
 /// Errors of the machine as delivered, and with only the sheets' placement fitted.
 struct BeforeCalibration {
-  std::vector<Eigen::Vector2d> as_stated, placed;
+  std::vector<Vector2d> as_stated, placed;
 };
 
 BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
@@ -37,9 +37,9 @@ BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
     moves =
         moves || (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
   }
-  const Eigen::VectorXd as_stated = uncalibrated(session, *stated);
+  const VectorXd as_stated = uncalibrated(session, *stated);
   if (moves) {
-    const Eigen::VectorXd placed =
+    const VectorXd placed =
         left_by(marginalised_system(a).kept, stated->by_setting.middleCols(kOfMachine, sheet),
                 stated->sigma.segment(kOfMachine, sheet), as_stated);
     result.placed = errors_of_units(*stated, placed, units);
@@ -113,8 +113,7 @@ std::string scheme_of(const ObservationSet& session, const HeldOutBlocks& blocks
 
 }  // namespace
 
-HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm, const Indices& block,
-                  std::uint64_t seed) {
+HeldOut summarise(const std::vector<Vector2d>& tool_mm, const Indices& block, std::uint64_t seed) {
   HeldOut result;
   if (tool_mm.empty()) return result;
   std::vector<double> size;
@@ -189,16 +188,16 @@ bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvemen
   return improvement && improvement->extended_and_surface.rms_mm < improvement->surface_only.rms_mm;
 }
 
-Eigen::VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated) {
-  Eigen::VectorXd e = stated.e;
+VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated) {
+  VectorXd e = stated.e;
   for (const SystemUnit& unit : stated.units) {
     if (!unit.reads_chains) continue;
     const std::size_t number = unit.places.front().place;
     const ObservationPart& part = session.parts[session.places[number].part];
     const observation::Place& place = part.observation->places()[number - part.first_place];
     if (!place.commanded) continue;
-    const Eigen::Vector2d displacement(place.commanded->x_mm - place.mark.x_mm,
-                                       place.commanded->y_mm - place.mark.y_mm);
+    const Vector2d displacement(place.commanded->x_mm - place.mark.x_mm,
+                                place.commanded->y_mm - place.mark.y_mm);
     e.segment<2>(unit.first_row) =
         unit.whitening * (stated.places[number].state.by_mark * displacement);
   }

@@ -7,10 +7,10 @@
 /// at the length and size that the fold's points prefer.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -24,12 +24,11 @@ bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvemen
 
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over
 /// resampled blocks. `block` numbers the block of each error.
-HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm, const Indices& block,
-                  std::uint64_t seed);
+HeldOut summarise(const std::vector<Vector2d>& tool_mm, const Indices& block, std::uint64_t seed);
 
 /// The errors of the machine as it was delivered. For a place with a command they are commanded
 /// minus measured, regardless of the stated machine. Whitened like `stated.e`; `stated` is the
 /// session linearised about the stated values.
-Eigen::VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated);
+VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,7 +9,7 @@ namespace {
 /// The rejected part of a unit.
 struct Rejected {
   bool whole = false;
-  std::optional<Eigen::Vector2d> direction{};  ///< of length one
+  std::optional<Vector2d> direction{};  ///< of length one
 };
 
 void reject(const OutlierGroup& group, Rejected& unit) {
@@ -19,7 +19,7 @@ void reject(const OutlierGroup& group, Rejected& unit) {
     unit.whole = true;
     return;
   }
-  const Eigen::Vector2d own = group.direction->normalized();
+  const Vector2d own = group.direction->normalized();
   if (!unit.direction) {
     unit.direction = own;
     return;
@@ -46,7 +46,7 @@ std::vector<Rejected> rejected_units(const RegressorSystem& system, const Flags&
 
 KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) {
   const std::vector<Rejected> of_unit = rejected_units(system, rejected);
-  for (Eigen::Index row = 0; row < system.e.size(); ++row) {
+  for (Index row = 0; row < system.e.size(); ++row) {
     const int number = system.unit_of_row[index(row)];
     if (number < 0) {
       rows_.push_back(row);
@@ -59,7 +59,7 @@ KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) {
     if (own.direction && !first) continue;
     if (first) {
       Unit kept{size(), own.direction ? 1 : system.units[unit].rows, unit};
-      if (own.direction) kept.across = Eigen::RowVector2d(-own.direction->y(), own.direction->x());
+      if (own.direction) kept.across = RowVector2d(-own.direction->y(), own.direction->x());
       units_.push_back(kept);
     }
     rows_.push_back(row);
@@ -72,25 +72,25 @@ Rows KeptRows::positions(const Indices& units) const {
   Rows result;
   for (const Unit& unit : units_) {
     if (!contains(units, unit.unit)) continue;
-    for (Eigen::Index k = 0; k < unit.rows; ++k) result.push_back(unit.at + k);
+    for (Index k = 0; k < unit.rows; ++k) result.push_back(unit.at + k);
   }
   return result;
 }
 
-Eigen::VectorXd KeptRows::operator()(const Eigen::VectorXd& all) const {
-  Eigen::VectorXd kept = all(rows_);
+VectorXd KeptRows::operator()(const VectorXd& all) const {
+  VectorXd kept = all(rows_);
   for (const Unit& unit : units_) {
     if (unit.across) kept(unit.at) = *unit.across * all.segment<2>(rows_[index(unit.at)]);
   }
   return kept;
 }
 
-Eigen::MatrixXd KeptRows::of(const Eigen::Ref<const Eigen::MatrixXd>& all) const {
+MatrixXd KeptRows::of(const Eigen::Ref<const MatrixXd>& all) const {
   if (size() == all.rows()) return all;
-  Eigen::MatrixXd kept(size(), all.cols());
-  for (Eigen::Index column = 0; column < all.cols(); ++column) {
+  MatrixXd kept(size(), all.cols());
+  for (Index column = 0; column < all.cols(); ++column) {
     const auto from = all.col(column);
-    for (Eigen::Index k = 0; k < kept.rows(); ++k) kept(k, column) = from[rows_[index(k)]];
+    for (Index k = 0; k < kept.rows(); ++k) kept(k, column) = from[rows_[index(k)]];
     for (const Unit& unit : units_) {
       if (unit.across)
         kept(unit.at, column) = *unit.across * from.segment<2>(rows_[index(unit.at)]);

@@ -12,12 +12,12 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "grid/diagnosis/regressor_columns.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -27,10 +27,10 @@ class KeptRows {
  public:
   /// A unit with rows among those kept.
   struct Unit {
-    Eigen::Index at = 0;  ///< position of its first row
-    Eigen::Index rows = 0;
+    Index at = 0;  ///< position of its first row
+    Index rows = 0;
     std::size_t unit = 0;
-    std::optional<Eigen::RowVector2d> across{};  ///< the kept mix of two rows; absent: all rows
+    std::optional<RowVector2d> across{};  ///< the kept mix of two rows; absent: all rows
   };
 
   KeptRows() = default;
@@ -38,7 +38,7 @@ class KeptRows {
   KeptRows(const RegressorSystem& system, const Flags& rejected);
   static KeptRows all(const RegressorSystem& system);
 
-  Eigen::Index size() const { return std::ssize(rows_); }
+  Index size() const { return std::ssize(rows_); }
   /// Numbers in the system, ascending; a row across a direction has the number of its unit's first
   /// row.
   const Rows& rows() const { return rows_; }
@@ -46,15 +46,15 @@ class KeptRows {
   /// Positions of the rows that belong to these units.
   Rows positions(const Indices& units) const;
 
-  Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
-  Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
+  VectorXd operator()(const VectorXd& all) const;
+  MatrixXd of(const Eigen::Ref<const MatrixXd>& all) const;
   /// The kept part of a block of a unit's rows.
-  static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
-    return unit.across ? Eigen::MatrixXd(*unit.across * block) : block;
+  static MatrixXd of_unit(const Unit& unit, const MatrixXd& block) {
+    return unit.across ? MatrixXd(*unit.across * block) : block;
   }
 
  private:
-  static std::size_t index(Eigen::Index row) { return as_size(row); }
+  static std::size_t index(Index row) { return as_size(row); }
   Rows rows_;
   std::vector<Unit> units_;
 };

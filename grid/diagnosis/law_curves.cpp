@@ -160,7 +160,7 @@ class CurveList {
 };
 
 /// The factor of one amplitude of a law at one value.
-double basis(const LawCurve& curve, double at, Eigen::Index column, double v) {
+double basis(const LawCurve& curve, double at, Index column, double v) {
   const double u = (v - curve.middle()) / curve.span();
   switch (curve.shape) {
     case LawShape::linear:
@@ -227,11 +227,10 @@ double from_border(const SystemPlace& place, bool along_x) {
 }
 
 /// The effect of one millimetre of a law on the chains at a place, with the law's argument.
-std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& place,
-                                                          const LawTerm& term) {
+std::vector<std::pair<double, Vector2d>> chains_at(const SystemPlace& place, const LawTerm& term) {
   if (term.of == Coordinate::visit && !place.ordered) return {};
-  const Eigen::Matrix2d& by_mark = place.state.by_mark;
-  const auto at = [&](const Eigen::Vector2d& chains_mm) {
+  const Matrix2d& by_mark = place.state.by_mark;
+  const auto at = [&](const Vector2d& chains_mm) {
     return std::vector{std::pair(value_at(place, term.of, term.direction_rad), chains_mm)};
   };
   switch (term.enters) {
@@ -248,8 +247,7 @@ std::vector<std::pair<double, Eigen::Vector2d>> chains_at(const SystemPlace& pla
     case Enters::y:
       return at(by_mark.col(1));
     case Enters::along:
-      return at(by_mark *
-                Eigen::Vector2d(std::cos(term.direction_rad), std::sin(term.direction_rad)));
+      return at(by_mark * Vector2d(std::cos(term.direction_rad), std::sin(term.direction_rad)));
     case Enters::outwards:
       return {{from_border(place, true), by_mark.col(0) * std::copysign(1.0, place.mark.x_mm)},
               {from_border(place, false), by_mark.col(1) * std::copysign(1.0, place.mark.y_mm)}};
@@ -282,7 +280,7 @@ StepPlaces step_places(const std::vector<double>& values, double from, double to
   return places;
 }
 
-Eigen::Index columns_of(LawShape shape) {
+Index columns_of(LawShape shape) {
   if (shape == LawShape::harmonics) return 4;
   return shape == LawShape::square || shape == LawShape::wave ? 2 : 1;
 }
@@ -319,20 +317,20 @@ void share_out(std::vector<LawCurve>& curves) {
 namespace {
 
 /// Values of every amplitude at each of some points of the grid.
-Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
-  const Eigen::Index each = columns_of(curve.shape);
-  Eigen::RowVectorXd values(each * std::ssize(at));
-  for (Eigen::Index k = 0; k < values.size(); ++k)
+RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
+  const Index each = columns_of(curve.shape);
+  RowVectorXd values(each * std::ssize(at));
+  for (Index k = 0; k < values.size(); ++k)
     values(k) = basis(curve, at[as_size(k / each)], k % each, v);
   return values;
 }
 
 }  // namespace
 
-Eigen::MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
-                            const std::vector<double>& at) {
-  const Eigen::Index count = columns_of(curve.shape) * std::ssize(at);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system.e.size(), count);
+MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
+                     const std::vector<double>& at) {
+  const Index count = columns_of(curve.shape) * std::ssize(at);
+  MatrixXd columns = MatrixXd::Zero(system.e.size(), count);
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     const SystemUnit& unit = system.units[u];
     for (const LawRows& own : law_rows(system, u, curve))
@@ -397,7 +395,7 @@ std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,
     const SystemPlace& place = system.places[own.place];
     if (const auto belt = belt_of(term.enters)) {
       all.push_back({value_at(place, term.of, term.direction_rad),
-                     system.units[unit].by_reading.col(static_cast<Eigen::Index>(*belt))});
+                     system.units[unit].by_reading.col(static_cast<Index>(*belt))});
       continue;
     }
     for (const auto& [v, chains_mm] : chains_at(place, term))

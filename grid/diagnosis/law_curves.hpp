@@ -19,11 +19,11 @@
 ///   const std::vector<LawCurve> curves = law_curves(system);
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -66,7 +66,7 @@ std::vector<double> values_of_variable(const RegressorSystem& system, Coordinate
 /// unit there.
 struct LawRows {
   double v = 0.0;
-  Eigen::VectorXd rows;
+  VectorXd rows;
 };
 /// One for each place of the unit, or two if the law moves the tool outwards; none at a visit
 /// without a number for a law of the visits.
@@ -102,14 +102,14 @@ void share_out(std::vector<LawCurve>& curves);
 
 /// Number of linear amplitudes: two for a square and a wave, four for a wave with its second
 /// harmonic, else one.
-Eigen::Index columns_of(LawShape shape);
+Index columns_of(LawShape shape);
 /// Whether there is a continuous place, scale or period to refine.
 bool is_continuous(LawShape shape);
 /// Prior density of a grid point, up to a factor.
 double density_at(const LawCurve& curve, double at);
 
 /// Whitened rows that a law's amplitudes add to at some points of its grid, one after the other: all rows by columns_of().
-Eigen::MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
-                            const std::vector<double>& at);
+MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
+                     const std::vector<double>& at);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -19,8 +19,8 @@ constexpr std::size_t kMostSets = 7;
 constexpr std::size_t kMostCurves = 60;
 constexpr std::size_t kMostContexts = 32;
 constexpr std::size_t kFirstContexts = 4;
-constexpr Eigen::Index kChunk = 96;  // columns at once, so that their products stay small
-constexpr int kFiner = 4;            // points between two of a grid, at each of two refinements
+constexpr Index kChunk = 96;  // columns at once, so that their products stay small
+constexpr int kFiner = 4;     // points between two of a grid, at each of two refinements
 
 /// Nothing, the comparison's leading sets, and these without one of their causes.
 std::vector<RegressorSet> leading_sets(const Analysis& a) {
@@ -122,7 +122,7 @@ class LawSearch {
     std::vector<double> weights;
     for (auto from = points.begin(); from != points.end();) {
       auto to = from;
-      for (Eigen::Index count = 0; to != points.end(); ++to) {
+      for (Index count = 0; to != points.end(); ++to) {
         count += columns_of(to->curve->shape);
         if (count > kChunk) break;
       }

@@ -18,6 +18,7 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -28,8 +29,8 @@ struct WeighedLaw {
   double log_weight = 0.0;  ///< mass of the point included
   std::size_t set = 0;      ///< of the best context, into LawEvidence::sets
   int discrepancy = -1;
-  Eigen::VectorXd amplitude;   ///< given the best context
-  Eigen::MatrixXd covariance;  ///< of these
+  VectorXd amplitude;   ///< given the best context
+  MatrixXd covariance;  ///< of these
 };
 
 struct LawEvidence {

@@ -12,7 +12,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
 #include "grid/diagnosis/leave_out.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -33,12 +33,12 @@ class LawModel {
         pattern_(discrepancy_columns(a.system, marginalised, discrepancy)),
         reduced_(marginalised.root.solve(pattern_)) {
     if (discrepancy >= 0) process_ = discrepancy_of(a.system, marginalised, discrepancy);
-    for (const int k : regressors) add(Eigen::VectorXd(a.system.g.col(k)));
+    for (const int k : regressors) add(VectorXd(a.system.g.col(k)));
   }
 
   /// Adds a column (all rows) of unknown amplitude.
-  void add(const Eigen::VectorXd& column) {
-    const Eigen::VectorXd own = reduced(marginalised_, column);
+  void add(const VectorXd& column) {
+    const VectorXd own = reduced(marginalised_, column);
     // Amplitude at the usual strength.
     sigmas_.push_back(kUsualSignalToNoise / std::max(own.norm(), 1e-12));
     columns_.push_back(sigmas_.back() * marginalised_.kept(column));
@@ -47,7 +47,7 @@ class LawModel {
   }
 
   /// For all kept rows, after subtracting `known` (all rows).
-  double log_density(const Eigen::VectorXd& known) const {
+  double log_density(const VectorXd& known) const {
     const LowRankNoise noise(reduced_);
     return density().log_density(noise.half_solve(left_by(known)).squaredNorm()) -
            0.5 * (marginalised_.log_det + noise.log_det());
@@ -56,10 +56,10 @@ class LawModel {
   /// The noise part of the kept rows and, with the discrepancy added, the machine's residual, after
   /// subtracting `known` (all rows).
   struct Left {
-    Eigen::VectorXd noise;
-    Eigen::VectorXd unexplained;
+    VectorXd noise;
+    VectorXd unexplained;
   };
-  Left left_of(const Eigen::VectorXd& known) const {
+  Left left_of(const VectorXd& known) const {
     Left left;
     left.noise = marginalised_.root.solve(LowRankNoise(reduced_).solve(left_by(known)));
     left.unexplained = left.noise;
@@ -73,26 +73,26 @@ class LawModel {
   ///   m = X* f + K* C^-1 (e - X f),  S = K** - K* C^-1 K*'
   /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations 2.38 and 2.39.
   struct Expected {
-    Eigen::VectorXd mean;
-    Eigen::MatrixXd covariance;
+    VectorXd mean;
+    MatrixXd covariance;
   };
-  Expected expected_of(const RegressorSystem& next, const Eigen::MatrixXd& columns) const {
-    const Eigen::Index settings = system_.by_setting.cols();
-    const Eigen::Index rows = marginalised_.kept.size();
-    Eigen::MatrixXd here(rows, settings + columns.cols());
-    Eigen::MatrixXd there(next.by_setting.rows(), settings + columns.cols());
+  Expected expected_of(const RegressorSystem& next, const MatrixXd& columns) const {
+    const Index settings = system_.by_setting.cols();
+    const Index rows = marginalised_.kept.size();
+    MatrixXd here(rows, settings + columns.cols());
+    MatrixXd there(next.by_setting.rows(), settings + columns.cols());
     here.leftCols(settings) =
         linear::scaled_columns(marginalised_.kept.of(system_.by_setting), system_.sigma);
     there.leftCols(settings) =
         linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma);
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    for (Index k = 0; k < columns.cols(); ++k) {
       here.col(settings + k) = columns_[as_size(k)];
       there.col(settings + k) = sigmas_[as_size(k)] * columns.col(k);
     }
-    Eigen::MatrixXd across = linear::product(here, linear::transposed(there));
-    Eigen::MatrixXd own = linear::outer(there);
+    MatrixXd across = linear::product(here, linear::transposed(there));
+    MatrixXd own = linear::outer(there);
     // Holes not yet cut have their own columns, after all others.
-    const Eigen::Index to_come = next.by_setting.cols() - settings;
+    const Index to_come = next.by_setting.cols() - settings;
     linear::add_outer(
         own, 1.0,
         linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
@@ -104,7 +104,7 @@ class LawModel {
       own += square * discrepancy_covariance(next, KeptRows::all(next), process_->kernel);
     }
     const LowRankNoise noise(reduced_);
-    const Eigen::MatrixXd half = noise.half_solve(marginalised_.root.solve(across));
+    const MatrixXd half = noise.half_solve(marginalised_.root.solve(across));
     Expected expected;
     expected.mean = linear::product(next.by_setting.leftCols(settings), system_.expected_change);
     linear::add_product(expected.mean, 1.0, linear::transposed(half),
@@ -122,8 +122,7 @@ class LawModel {
           rows_(model.marginalised_.root, LowRankNoise(model.reduced_), model.marginalised_.e) {}
     struct Without {
       double log_density = 0.0;  ///< of the other rows
-      Eigen::VectorXd
-          left;  ///< of those left out: the difference from the prediction by the others
+      VectorXd left;  ///< of those left out: the difference from the prediction by the others
     };
     /// By their positions.
     [[nodiscard]] Without without(const Rows& rows) const {
@@ -141,16 +140,16 @@ class LawModel {
  private:
   NoiseDensity density() const { return {system_.noise_dof, marginalised_.kept.size()}; }
   /// R^-1 (e - known)
-  Eigen::VectorXd left_by(const Eigen::VectorXd& known) const {
+  VectorXd left_by(const VectorXd& known) const {
     return marginalised_.e - reduced(marginalised_, known);
   }
 
   const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   std::optional<Discrepancy> process_;
-  Eigen::MatrixXd pattern_;  ///< s F in the kept rows; no columns without a discrepancy
-  Eigen::MatrixXd reduced_;  ///< B
-  std::vector<Eigen::VectorXd> columns_;  ///< kept rows, scaled to one sigma each
+  MatrixXd pattern_;               ///< s F in the kept rows; no columns without a discrepancy
+  MatrixXd reduced_;               ///< B
+  std::vector<VectorXd> columns_;  ///< kept rows, scaled to one sigma each
   std::vector<double> sigmas_;
 };
 
@@ -160,8 +159,8 @@ inline LawModel model_with(const Analysis& a, const LawEvidence& evidence, const
                  evidence.sets[law != nullptr ? law->set : evidence.without_set],
                  law != nullptr ? law->discrepancy : evidence.without_discrepancy);
   if (law == nullptr) return model;
-  const Eigen::MatrixXd columns = law_columns(a.system, evidence.curves[law->curve], {law->at});
-  for (Eigen::Index k = 0; k < columns.cols(); ++k) model.add(Eigen::VectorXd(columns.col(k)));
+  const MatrixXd columns = law_columns(a.system, evidence.curves[law->curve], {law->at});
+  for (Index k = 0; k < columns.cols(); ++k) model.add(VectorXd(columns.col(k)));
   return model;
 }
 

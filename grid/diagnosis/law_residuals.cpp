@@ -7,6 +7,7 @@
 
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -26,9 +27,9 @@ std::vector<LawResidual> residuals_about(const Analysis& a, const LawEvidence& e
     LawResidual point;
     point.index = a.session.units[kept.unit].index;
     if (!of_belts) {
-      Eigen::VectorXd rows = Eigen::VectorXd::Zero(system.e.size());
+      VectorXd rows = VectorXd::Zero(system.e.size());
       rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
-      const Eigen::Vector2d left_mm = error_of_unit(system, rows, kept.unit);
+      const Vector2d left_mm = error_of_unit(system, rows, kept.unit);
       point.left_x_mm = left_mm.x();
       point.left_y_mm = left_mm.y();
     }
@@ -157,9 +158,9 @@ class Predictor {
     return *max_element(all, ascending(&LawModel::Downdated::Without::log_density));
   }
 
-  double square_mm2(const Eigen::VectorXd& wrong, const Indices& units) const {
-    Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
-    Eigen::Index at = 0;
+  double square_mm2(const VectorXd& wrong, const Indices& units) const {
+    VectorXd rows = VectorXd::Zero(system_.e.size());
+    Index at = 0;
     for (const KeptRows::Unit& unit : kept_.units()) {
       if (!contains(units, unit.unit)) continue;
       if (!unit.across)

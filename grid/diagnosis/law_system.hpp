@@ -18,6 +18,7 @@
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -38,8 +39,8 @@ struct LawPoint {
 
 /// Amplitudes of a law in a context.
 struct LawAmplitudes {
-  Eigen::VectorXd value;
-  Eigen::MatrixXd covariance;
+  VectorXd value;
+  MatrixXd covariance;
 };
 
 class LawSystem {
@@ -70,7 +71,7 @@ class LawSystem {
     own_.e = from_.e;
     auto kernels = numbers_below(own_.discrepancies->kernels.size());
     basis_.emplace(own_, marginalised_, kernels);
-    take_columns(Eigen::MatrixXd(marginalised_.kept.size(), 0));
+    take_columns(MatrixXd(marginalised_.kept.size(), 0));
   }
 
   LawSystem(const LawSystem&) = delete;
@@ -79,18 +80,18 @@ class LawSystem {
   /// Replaces the columns of laws by those of these points; returns which are each one's.
   std::vector<ColumnSet> take(const std::vector<LawPoint>& points) {
     std::vector<ColumnSet> of_point;
-    Eigen::Index count = 0;
+    Index count = 0;
     for (const LawPoint& point : points) {
       ColumnSet& own = of_point.emplace_back();
-      for (Eigen::Index k = columns_of(point.curve->shape); k > 0; --k) own.push_back(count++);
+      for (Index k = columns_of(point.curve->shape); k > 0; --k) own.push_back(count++);
     }
-    Eigen::MatrixXd laws(from_.e.size(), count);
+    MatrixXd laws(from_.e.size(), count);
     count = 0;
     for (std::size_t k = 0; k < points.size();) {
       const LawCurve& curve = *points[k].curve;
       std::vector<double> at;
       for (; k < points.size() && points[k].curve == &curve; ++k) at.push_back(points[k].at);
-      const Eigen::MatrixXd own = law_columns(from_, curve, at);
+      const MatrixXd own = law_columns(from_, curve, at);
       laws.middleCols(count, own.cols()) = own;
       count += own.cols();
     }
@@ -102,8 +103,8 @@ class LawSystem {
   /// nearly all of it. By the columns taken last.
   bool shows(const ColumnSet& laws) const {
     constexpr double kLargestMm = 6.0;
-    return all_of(laws, [&](Eigen::Index k) {
-      const Eigen::Index at = causes_.cols() + k;
+    return all_of(laws, [&](Index k) {
+      const Index at = causes_.cols() + k;
       return std::sqrt(plain_.gg(at, at)) * kLargestMm >= kUsualSignalToNoise;
     });
   }
@@ -135,12 +136,12 @@ class LawSystem {
   LawAmplitudes amplitudes(const NormalEquations& equations, const LawContext& context,
                            const ColumnSet& laws) const {
     const ColumnSet all = all_columns(context, laws);
-    Eigen::MatrixXd a = equations.gg(all, all);
-    const Eigen::VectorXd prior = equations.prior_square(all);
+    MatrixXd a = equations.gg(all, all);
+    const VectorXd prior = equations.prior_square(all);
     a.diagonal() += prior / (kWideSignalToNoise * kWideSignalToNoise);
     const linear::Cholesky factor(std::move(a));
-    const Eigen::VectorXd c = equations.ge(all);
-    const Eigen::VectorXd b = factor.solve(c);
+    const VectorXd c = equations.ge(all);
+    const VectorXd b = factor.solve(c);
     const double square = noise_.noise_square(std::max(equations.ee - c.dot(b), 0.0));
     const auto m = std::ssize(laws);
     return {b.tail(m), square * factor.inverse().bottomRightCorner(m, m)};
@@ -151,8 +152,8 @@ class LawSystem {
 
  private:
   /// Replaces the columns of laws.
-  void take_columns(const Eigen::MatrixXd& laws) {
-    Eigen::MatrixXd g(laws.rows(), causes_.cols() + laws.cols());
+  void take_columns(const MatrixXd& laws) {
+    MatrixXd g(laws.rows(), causes_.cols() + laws.cols());
     g << causes_, laws;
     marginalised_.g = RegressorColumns(std::move(g));
     Regressor law;
@@ -169,7 +170,7 @@ class LawSystem {
   /// Columns in a context: of its causes and of some laws.
   ColumnSet all_columns(const LawContext& context, const ColumnSet& laws) const {
     ColumnSet all = sets_[context.set];
-    for (const Eigen::Index k : laws) all.push_back(causes_.cols() + k);
+    for (const Index k : laws) all.push_back(causes_.cols() + k);
     return all;
   }
 
@@ -181,7 +182,7 @@ class LawSystem {
   MarginalisedSystem marginalised_;
   NoiseDensity noise_;
   RegressorSystem own_;
-  Eigen::MatrixXd causes_;
+  MatrixXd causes_;
   std::vector<Regressor> cause_regressors_;
   std::vector<ColumnSet> sets_;
   std::vector<Priors> log_prior_;

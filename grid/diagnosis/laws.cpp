@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "grid/diagnosis/law_residuals.hpp"
+#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
@@ -52,25 +53,24 @@ struct PointParameters {
 };
 
 /// Size and phase of a cosine and a sine.
-PointParameters size_and_phase(const Eigen::Vector2d& a, const Eigen::Matrix2d& c) {
+PointParameters size_and_phase(const Vector2d& a, const Matrix2d& c) {
   const double size = std::max(a.norm(), kSmallestWaveMm);
-  const Eigen::Vector2d along = a / size;
-  const Eigen::Vector2d turned(along(1), -along(0));
+  const Vector2d along = a / size;
+  const Vector2d turned(along(1), -along(0));
   return {{size, std::atan2(a(0), a(1))},
           {along.dot(c * along), turned.dot(c * turned) / (size * size)}};
 }
 
 PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
-  const Eigen::VectorXd& a = law.amplitude;
-  const Eigen::MatrixXd& c = law.covariance;
+  const VectorXd& a = law.amplitude;
+  const MatrixXd& c = law.covariance;
   switch (curve.shape) {
     case LawShape::linear:
       return {{a(0)}, {c(0, 0)}};
     case LawShape::square: {
       // A bow of zero size has no vertex.
       const double at = a(0) != 0.0 ? -0.5 * a(1) / a(0) : 0.0;
-      const Eigen::Vector2d slope =
-          a(0) != 0.0 ? Eigen::Vector2d(-at / a(0), -0.5 / a(0)) : Eigen::Vector2d(0.0, 0.0);
+      const Vector2d slope = a(0) != 0.0 ? Vector2d(-at / a(0), -0.5 / a(0)) : Vector2d(0.0, 0.0);
       const double half = 0.5 * curve.span();
       return {{a(0), curve.middle() + half * at}, {c(0, 0), half * half * slope.dot(c * slope)}};
     }
@@ -158,9 +158,8 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[best.evidence->marginalised];
-  const Eigen::VectorXd rows =
-      law_columns(system, best.curve(), {best.law->at}) * best.law->amplitude;
-  const auto left_mm = [&](Eigen::VectorXd of_rows) {
+  const VectorXd rows = law_columns(system, best.curve(), {best.law->at}) * best.law->amplitude;
+  const auto left_mm = [&](VectorXd of_rows) {
     const KeptRows& kept = marginalised.kept;
     return rms_of_units_mm(system, kept,
                            left_by(kept, system.by_setting, system.sigma, std::move(of_rows)));

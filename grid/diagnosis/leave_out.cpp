@@ -3,13 +3,13 @@
 
 namespace chaintrue::grid::diagnosis {
 
-LeaveOut::LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const Eigen::MatrixXd& x)
+LeaveOut::LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const MatrixXd& x)
     : log_det_(root.log_det() + noise.log_det()) {
-  const Eigen::MatrixXd half = noise.half_solve(x);
+  const MatrixXd half = noise.half_solve(x);
   inner_ = linear::gram(half);
-  weighed_ = root.solve(Eigen::MatrixXd(half.topRows(x.rows())));
-  const Eigen::MatrixXd of_settings = root.explained();
-  const Eigen::MatrixXd of_columns = root.solve(noise.explained());
+  weighed_ = root.solve(MatrixXd(half.topRows(x.rows())));
+  const MatrixXd of_settings = root.explained();
+  const MatrixXd of_columns = root.solve(noise.explained());
   explained_.resize(x.rows(), of_settings.cols() + of_columns.cols());
   explained_ << of_settings, of_columns;
 }
@@ -17,8 +17,8 @@ LeaveOut::LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const 
 LeaveOut::Kept LeaveOut::without(const Rows& out) const {
   Kept kept{inner_, log_det_, {}, weighed_(out, Eigen::all)};
   if (out.empty()) return kept;
-  Eigen::MatrixXd block = Eigen::MatrixXd::Identity(std::ssize(out), std::ssize(out));
-  linear::add_outer(block, -1.0, Eigen::MatrixXd(explained_(out, Eigen::all)));
+  MatrixXd block = MatrixXd::Identity(std::ssize(out), std::ssize(out));
+  linear::add_outer(block, -1.0, MatrixXd(explained_(out, Eigen::all)));
   kept.block = linear::Cholesky(std::move(block));
   linear::add_gram(kept.inner, -1.0, kept.block.half_solve(kept.weighed));
   kept.log_det += kept.block.log_det();

@@ -21,33 +21,32 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
-
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/regressor_columns.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 class LeaveOut {
  public:
-  LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const Eigen::MatrixXd& x);
+  LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const MatrixXd& x);
 
-  Eigen::Index rows() const { return weighed_.rows(); }
+  Index rows() const { return weighed_.rows(); }
 
   struct Kept {
-    Eigen::MatrixXd inner;    ///< x' V_kept^-1 x
-    double log_det = 0.0;     ///< of V_kept
-    linear::Cholesky block;   ///< P_OO
-    Eigen::MatrixXd weighed;  ///< (P x)_O
+    MatrixXd inner;          ///< x' V_kept^-1 x
+    double log_det = 0.0;    ///< of V_kept
+    linear::Cholesky block;  ///< P_OO
+    MatrixXd weighed;        ///< (P x)_O
     /// x_O minus its prediction by the kept rows.
-    Eigen::MatrixXd missed() const { return block.solve(weighed); }
+    MatrixXd missed() const { return block.solve(weighed); }
   };
   [[nodiscard]] Kept without(const Rows& out) const;
 
  private:
-  Eigen::MatrixXd explained_;  ///< T
-  Eigen::MatrixXd weighed_;    ///< P x
-  Eigen::MatrixXd inner_;      ///< x' P x
+  MatrixXd explained_;  ///< T
+  MatrixXd weighed_;    ///< P x
+  MatrixXd inner_;      ///< x' P x
   double log_det_ = 0.0;
 };
 

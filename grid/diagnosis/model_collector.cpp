@@ -57,7 +57,7 @@ double ModelCollector::consider(const ColumnSet& set, int discrepancy,
   const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
   if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
   CandidateModel model;
-  for (const Eigen::Index i : set) {
+  for (const Index i : set) {
     model.regressors.push_back(equations.columns[as_size(i)]);
   }
   sort(model.regressors);
@@ -85,7 +85,7 @@ double ModelCollector::log_prior_of(const RegressorSet& regressors, int discrepa
   return value;
 }
 
-ColumnSet with_column(ColumnSet set, Eigen::Index column) {
+ColumnSet with_column(ColumnSet set, Index column) {
   set.insert(std::lower_bound(set.begin(), set.end(), column), column);
   return set;
 }
@@ -103,10 +103,9 @@ void GrowingSets::weigh(const ColumnSet& set) {
     weighed_[set.size()].push_back({collector_.consider(set, discrepancy_, equations_), set});
 }
 
-bool GrowingSets::fits(const ColumnSet& set, Eigen::Index column) const {
-  return all_of(set, [&](Eigen::Index other) {
-    return compatible(regressor(column), regressor(other), limits_);
-  });
+bool GrowingSets::fits(const ColumnSet& set, Index column) const {
+  return all_of(
+      set, [&](Index other) { return compatible(regressor(column), regressor(other), limits_); });
 }
 
 void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
@@ -119,7 +118,7 @@ void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
     keep_best(parents, limits.parents, &WeighedSet::weight);
     if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
     for (const WeighedSet& parent : parents) {
-      for (const Eigen::Index column : extensions(parent.set)) {
+      for (const Index column : extensions(parent.set)) {
         if (fits(parent.set, column)) weigh(with_column(parent.set, column));
       }
     }
@@ -140,14 +139,14 @@ void search_by_beam(const RegressorSystem& system, const NormalEquations& equati
     std::multiset<double> heaviest;  // weights of those to extend
     std::set<ColumnSet> found;
     for (const WeighedSet& parent : parents) {
-      const Eigen::ArrayXd most = bounds.with_each(parent.set);
+      const ArrayXd most = bounds.with_each(parent.set);
       std::map<std::pair<bool, bool>, double> prior;  // of one more, by its kind
-      for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
+      for (Index i = 0; i < equations.ge.size(); ++i) {
         const Regressor& own = sets.regressor(i);
         const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
         if (is_new) {
           RegressorSet regressors = {equations.columns[as_size(i)]};
-          for (const Eigen::Index other : parent.set)
+          for (const Index other : parent.set)
             regressors.push_back(equations.columns[as_size(other)]);
           known->second = collector.log_prior_of(regressors, discrepancy) - own.log_prior;
         }

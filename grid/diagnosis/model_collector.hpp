@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -60,11 +61,11 @@ class GrowingSets {
 
   void weigh(const ColumnSet& set);
   const std::vector<WeighedSet>& of_size(std::size_t size) const { return weighed_[size]; }
-  const Regressor& regressor(Eigen::Index column) const {
+  const Regressor& regressor(Index column) const {
     return system_.regressor(equations_.columns[as_size(column)]);
   }
   /// Whether the columns may act together.
-  bool fits(const ColumnSet& set, Eigen::Index column) const;
+  bool fits(const ColumnSet& set, Index column) const;
   /// Weighs the best sets of `size` and more columns with one more, as `extensions` has for each.
   void grow(std::size_t size, const GrowthLimits& limits,
             const std::function<ColumnSet(const ColumnSet&)>& extensions);
@@ -79,7 +80,7 @@ class GrowingSets {
   std::array<std::vector<WeighedSet>, kMostCauses + 1> weighed_;
 };
 /// The set with one more column.
-[[nodiscard]] ColumnSet with_column(ColumnSet set, Eigen::Index column);
+[[nodiscard]] ColumnSet with_column(ColumnSet set, Index column);
 
 /// Sets of up to kMostCauses columns grown from nothing by a beam search, given one discrepancy or
 /// none; all go to the collector.

@@ -8,6 +8,7 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -89,12 +90,12 @@ double log_odds_of_another(const RegressorSystem& system, const RegressorSet& se
 }
 
 SingleScores single_scores(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                           const NoiseDensity& noise, const Eigen::VectorXd& e) {
+                           const NoiseDensity& noise, const VectorXd& e) {
   SingleScores scores;
   const double ee = e.squaredNorm();
   const double nothing = noise.log_density(ee);
-  const Eigen::VectorXd c = marginalised.g.transpose_times(e);
-  const Eigen::VectorXd square = marginalised.g.squared_norms();
+  const VectorXd c = marginalised.g.transpose_times(e);
+  const VectorXd square = marginalised.g.squared_norms();
   std::vector<std::vector<double>> terms;
   double best = kMinusInfinity;  // of the current cause
   NormalEquations equations;
@@ -102,7 +103,7 @@ SingleScores single_scores(const RegressorSystem& system, const MarginalisedSyst
   equations.ee = ee;
   equations.ge.resize(1);
   equations.gg.resize(1, 1);
-  const std::array<Eigen::Index, 1> first = {0};
+  const std::array<Index, 1> first = {0};
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const Regressor& regressor = system.regressors[k];
     if (scores.causes.empty() || scores.causes.back() != regressor.cause) {

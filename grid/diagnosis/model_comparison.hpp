@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -97,6 +98,6 @@ struct SingleScores {
   RegressorSet best_regressor;
 };
 SingleScores single_scores(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                           const NoiseDensity& noise, const Eigen::VectorXd& e);
+                           const NoiseDensity& noise, const VectorXd& e);
 
 }  // namespace chaintrue::grid::diagnosis

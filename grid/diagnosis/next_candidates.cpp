@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/eigen.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -248,11 +249,11 @@ class HoleCandidates {
 NextCandidates next_candidates(const Analysis& a) {
   std::vector<FollowUp> observations;
   std::vector<Candidate> all;
-  Eigen::Index rows = 0;
+  Index rows = 0;
   const auto take = [&](std::optional<CandidateReadings> more) {
     if (!more) return;
     for (Candidate& candidate : more->all) {
-      for (Eigen::Index& row : candidate.rows) row += rows;
+      for (Index& row : candidate.rows) row += rows;
       all.push_back(std::move(candidate));
     }
     rows += more->observation.observation->rows();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "grid/diagnosis/law_model.hpp"
+#include "grid/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -107,11 +108,11 @@ struct Next {
 };
 
 /// The prediction of future rows by a context's causes and a law's amplitudes.
-Eigen::MatrixXd columns_of(const Analysis& a, const Next& next, const RegressorSet& regressors,
-                           const Eigen::MatrixXd& law) {
+MatrixXd columns_of(const Analysis& a, const Next& next, const RegressorSet& regressors,
+                    const MatrixXd& law) {
   const auto causes = std::ssize(regressors);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(next.system.e.size(), causes + law.cols());
-  for (Eigen::Index k = 0; k < causes; ++k) {
+  MatrixXd columns = MatrixXd::Zero(next.system.e.size(), causes + law.cols());
+  for (Index k = 0; k < causes; ++k) {
     const Regressor& own = a.system.regressor(regressors[as_size(k)]);
     if (const auto g = signature(next.session, a.state, next.system, own)) columns.col(k) = *g;
   }
@@ -122,7 +123,7 @@ Eigen::MatrixXd columns_of(const Analysis& a, const Next& next, const RegressorS
 /// `law` may be null.
 Alternative expected_with(const Analysis& a, const Next& next, const LawEvidence& evidence,
                           const WeighedLaw* law) {
-  Eigen::MatrixXd there(next.system.e.size(), 0);
+  MatrixXd there(next.system.e.size(), 0);
   if (law != nullptr) there = law_columns(next.system, evidence.curves[law->curve], {law->at});
   const RegressorSet& regressors = evidence.sets[law != nullptr ? law->set : evidence.without_set];
   LawModel::Expected expected =

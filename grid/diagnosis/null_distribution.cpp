@@ -11,22 +11,21 @@ NullDistribution draw_null(const SingleScore& score, const MarginalisedSystem& m
   constexpr std::uint64_t kStream = 61;
   constexpr int kBlock = 250;  // draws at a time
   Random random(seed, kStream);
-  std::vector<Eigen::MatrixXd> blocks;
+  std::vector<MatrixXd> blocks;
   for (int done = 0; done < draws; done += kBlock) {
-    Eigen::MatrixXd& e = blocks.emplace_back(marginalised.e.size(), std::min(kBlock, draws - done));
+    MatrixXd& e = blocks.emplace_back(marginalised.e.size(), std::min(kBlock, draws - done));
     for (double& own : e.reshaped()) own = random.normal();
   }
   const double length = marginalised.e.norm();
   NullDistribution result;
   result.largest.resize(as_size(draws));
   for_each_index(blocks.size(), [&](std::size_t k) {
-    Eigen::MatrixXd& e = blocks[k];
+    MatrixXd& e = blocks[k];
     if (noise == NoiseSize::unknown) {
       e = marginalised.root.solve(e);
-      for (Eigen::Index draw = 0; draw < e.cols(); ++draw)
-        e.col(draw) *= length / e.col(draw).norm();
+      for (Index draw = 0; draw < e.cols(); ++draw) e.col(draw) *= length / e.col(draw).norm();
     }
-    const Eigen::VectorXd largest = score.largest(e);
+    const VectorXd largest = score.largest(e);
     std::copy(largest.begin(), largest.end(),
               result.largest.begin() + static_cast<std::ptrdiff_t>(k) * kBlock);
     e.resize(0, 0);

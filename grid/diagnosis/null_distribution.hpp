@@ -6,13 +6,13 @@
 /// 12 (2020) 860, on the largest statistic of many alternatives.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -25,7 +25,7 @@ class SingleScore {
       : marginalised_(marginalised), dof_(noise_dof) {
     square_ = marginalised.g.squared_norms();
     constant_.resize(square_.size());
-    for (Eigen::Index k = 0; k < square_.size(); ++k) {
+    for (Index k = 0; k < square_.size(); ++k) {
       const Regressor& d = system.regressor(k);
       fixed_.push_back(d.fixed);
       sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
@@ -37,18 +37,18 @@ class SingleScore {
   }
 
   /// The largest of all; `e` like MarginalisedSystem::e.
-  double largest(const Eigen::VectorXd& e) const {
-    const Eigen::VectorXd c = marginalised_.g.transpose_times(e);
+  double largest(const VectorXd& e) const {
+    const VectorXd c = marginalised_.g.transpose_times(e);
     const double ee = e.squaredNorm();
     const auto n = as_double(e.size());
     double result = kNoScore;
-    for (Eigen::Index k = 0; k < c.size(); ++k)
+    for (Index k = 0; k < c.size(); ++k)
       result = std::max(result, score(k, square_(k), c(k), ee, n));
     return result;
   }
 
   /// The largest over the columns of normal equations with this many rows.
-  double largest(const NormalEquations& equations, Eigen::Index rows) const {
+  double largest(const NormalEquations& equations, Index rows) const {
     double result = kNoScore;
     for (std::size_t i = 0; i < equations.columns.size(); ++i) {
       const auto at = as_index(i);
@@ -59,14 +59,14 @@ class SingleScore {
   }
 
   /// For each column of `e`.
-  Eigen::VectorXd largest(const Eigen::MatrixXd& e) const {
+  VectorXd largest(const MatrixXd& e) const {
     const RegressorColumns& g = marginalised_.g;
-    const Eigen::MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
+    const MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
     const auto n = as_double(e.rows());
-    Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
-    for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {
+    VectorXd result = VectorXd::Constant(e.cols(), kNoScore);
+    for (Index draw = 0; draw < e.cols(); ++draw) {
       const double ee = e.col(draw).squaredNorm();
-      for (Eigen::Index k = 0; k < g.cols(); ++k) {
+      for (Index k = 0; k < g.cols(); ++k) {
         const double own = g.factor(k) * c(g.index(k), draw);
         if (most(k, square_(k), own, ee, n) > result(draw))
           result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));
@@ -81,14 +81,14 @@ class SingleScore {
   static double precision() { return 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise); }
 
   /// For a regressor with this square and inner product with the residual, in this many rows.
-  double score(Eigen::Index k, double square, double c, double ee, double n) const {
+  double score(Index k, double square, double c, double ee, double n) const {
     const auto at = as_size(k);
     if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
     return constant_(k) - 0.5 * (n + dof_) * std::log1p(-share_taken(at, square, c, ee));
   }
 
   /// A bound of it without a logarithm.
-  double most(Eigen::Index k, double square, double c, double ee, double n) const {
+  double most(Index k, double square, double c, double ee, double n) const {
     // -log(1 - x) <= x / (1 - x); the last digits of either side do not matter to a score that is far below.
     constexpr double kRounding = 1e-9;
     const double taken = share_taken(as_size(k), square, c, ee);
@@ -103,8 +103,8 @@ class SingleScore {
 
   const MarginalisedSystem& marginalised_;
   double dof_;
-  Eigen::VectorXd square_;
-  Eigen::VectorXd constant_;
+  VectorXd square_;
+  VectorXd constant_;
   std::vector<int> sign_;  ///< +1: coefficient >= 0 only, -1: <= 0, 0: either
   Flags fixed_;
 };

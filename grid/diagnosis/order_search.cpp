@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "grid/diagnosis/workshop_units.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/statistics.hpp"
 
@@ -75,7 +76,7 @@ struct GivenModel {
   double log_odds = 0.0;  ///< for one more cause
   MarginalisedSystem marginalised;
   LowRankNoise noise;  ///< in its rows: the model's causes and discrepancy
-  Eigen::VectorXd e;   ///< half-solved by it
+  VectorXd e;          ///< half-solved by it
 };
 
 GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& again) {
@@ -88,12 +89,12 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& ag
   }
   MarginalisedSystem own = marginalise_rows(system, left_out);
   own.discrepancy_trace = compared.discrepancy_trace;  // the discrepancy keeps its strength
-  const Eigen::MatrixXd pattern = discrepancy_columns(system, own, model.discrepancy);
-  Eigen::MatrixXd columns(pattern.rows(), pattern.cols() + std::ssize(model.regressors));
+  const MatrixXd pattern = discrepancy_columns(system, own, model.discrepancy);
+  MatrixXd columns(pattern.rows(), pattern.cols() + std::ssize(model.regressors));
   columns.leftCols(pattern.cols()) = own.root.solve(pattern);
-  Eigen::Index free = pattern.cols();
+  Index free = pattern.cols();
   for (const int k : model.regressors) {
-    const Eigen::VectorXd column = reduced(own, system.g.col(k));
+    const VectorXd column = reduced(own, system.g.col(k));
     if (system.regressor(k).fixed) {
       own.e -= column;
     } else {
@@ -136,8 +137,8 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
   add_regressors(*set, a.state, causes, {}, *system);
   std::map<std::pair<std::size_t, std::size_t>, const NumberedUnit*> of;
   for (const NumberedUnit& unit : set->units) of[{unit.part, unit.index}] = &unit;
-  const Eigen::MatrixXd columns = system->g.dense();
-  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(a.session.rows, columns.cols());
+  const MatrixXd columns = system->g.dense();
+  MatrixXd moved = MatrixXd::Zero(a.session.rows, columns.cols());
   for (const NumberedUnit& unit : a.session.units) {
     const NumberedUnit& own = *of.at({unit.part, unit.index});
     moved.middleRows(unit.first_row, unit.rows) = columns.middleRows(own.first_row, own.rows);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/model_comparison.hpp"
+#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -23,13 +24,13 @@ struct FoundSet {
 /// A group that may yet be rejected.
 struct FreeGroup {
   std::size_t group = 0;
-  Eigen::Index at = 0;  ///< position of its first row among those kept
-  Eigen::Index rows = 1;
+  Index at = 0;  ///< position of its first row among those kept
+  Index rows = 1;
   /// A unit vector, orthogonal to the directions that other groups of the same rows have taken;
   /// absent: all rows.
-  std::optional<Eigen::Vector2d> direction;
+  std::optional<Vector2d> direction;
 
-  Eigen::Index directions() const { return direction ? 1 : rows; }
+  Index directions() const { return direction ? 1 : rows; }
 };
 
 /// The data under one hypothesis: precision P of the rows, and P times the residual.
@@ -48,7 +49,7 @@ class MeanShifts {
         u_(root_->solve(e_)),
         quadratic_(e_.squaredNorm()),
         log_det_(marginalised.log_det),
-        own_(Eigen::MatrixXd::Zero(2, e_.size())),
+        own_(MatrixXd::Zero(2, e_.size())),
         taken_(e_.size(), 0) {
     for (const FreeGroup& group : groups) {
       if (!blocks_.empty() && blocks_.back().first == group.at) continue;
@@ -59,16 +60,16 @@ class MeanShifts {
   }
 
   /// Removes one regressor of known size. Call before any other.
-  void subtract(const Eigen::VectorXd& g) {
+  void subtract(const VectorXd& g) {
     e_ -= g;
     u_ = root_->solve(e_);
     quadratic_ = e_.squaredNorm();
   }
 
   /// Removes one regressor of free size, with the prior precision of its coefficient.
-  void free(const Eigen::VectorXd& reduced_column, double prior) {
-    const Eigen::VectorXd g = root_->times(reduced_column);
-    Eigen::VectorXd pg = root_->solve(reduced_column);
+  void free(const VectorXd& reduced_column, double prior) {
+    const VectorXd g = root_->times(reduced_column);
+    VectorXd pg = root_->solve(reduced_column);
     linear::add_product(pg, -1.0, taken(), linear::product(linear::transposed(taken()), g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
@@ -86,7 +87,7 @@ class MeanShifts {
   /// (1): the drop of the quadratic form without the group.
   double drop_without(const FreeGroup& group) const {
     if (group.direction) {
-      const Eigen::Vector2d& d = *group.direction;
+      const Vector2d& d = *group.direction;
       return std::pow(d.dot(u_.segment<2>(group.at)), 2) / precision_along(group);
     }
     return group.rows == 2 ? drop_without_rows<2>(group.at) : drop_without_rows<1>(group.at);
@@ -106,7 +107,7 @@ class MeanShifts {
 
  private:
   template <int kRows>
-  [[nodiscard]] double drop_without_rows(Eigen::Index at) const {
+  [[nodiscard]] double drop_without_rows(Index at) const {
     const Eigen::Matrix<double, kRows, kRows> block = own_.template block<kRows, kRows>(0, at);
     const Eigen::Matrix<double, kRows, 1> u = u_.template segment<kRows>(at);
     return u.dot(block.inverse() * u);
@@ -114,24 +115,24 @@ class MeanShifts {
 
   /// D' P D.
   double precision_along(const FreeGroup& group) const {
-    const Eigen::Matrix2d block = own_.block<2, 2>(0, group.at);
+    const Matrix2d block = own_.block<2, 2>(0, group.at);
     return group.direction->dot(block * *group.direction);
   }
 
-  void reject_rows(Eigen::Index at, Eigen::Index rows) {
+  void reject_rows(Index at, Index rows) {
     const linear::Cholesky block(own_.block(0, at, rows, rows));
-    Eigen::MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
+    MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
     linear::add_product(columns, -1.0, taken(), linear::transposed(taken().middleRows(at, rows)));
     linear::add_product(u_, -1.0, columns, block.solve(u_.segment(at, rows)));
     log_det_ += block.log_det();
-    const Eigen::MatrixXd scaled = block.half_solve(columns.transpose());
-    for (Eigen::Index k = 0; k < rows; ++k) take(scaled.row(k).transpose());
+    const MatrixXd scaled = block.half_solve(columns.transpose());
+    for (Index k = 0; k < rows; ++k) take(scaled.row(k).transpose());
   }
 
   void reject_direction(const FreeGroup& group) {
-    const Eigen::Vector2d& d = *group.direction;
+    const Vector2d& d = *group.direction;
     const double own = precision_along(group);
-    Eigen::VectorXd column = linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
+    VectorXd column = linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
     linear::add_product(column, -1.0, taken(),
                         linear::product(linear::transposed(taken().middleRows(group.at, 2)), d));
     u_ -= column * (d.dot(u_.segment<2>(group.at)) / own);
@@ -139,26 +140,26 @@ class MeanShifts {
     take(column / std::sqrt(own));
   }
 
-  void take(const Eigen::VectorXd& column) {
+  void take(const VectorXd& column) {
     if (count_ == taken_.cols()) {
-      taken_.conservativeResize(u_.size(), std::max<Eigen::Index>(16, 2 * count_));
+      taken_.conservativeResize(u_.size(), std::max<Index>(16, 2 * count_));
     }
     taken_.col(count_++) = column;
     for (const auto& [at, rows] : blocks_) {
-      for (Eigen::Index k = 0; k < rows; ++k)
+      for (Index k = 0; k < rows; ++k)
         own_.col(at + k).head(rows) -= column[at + k] * column.segment(at, rows);
     }
   }
 
   const CovarianceRoot* root_;
-  Eigen::VectorXd e_;
-  Eigen::VectorXd u_;
+  VectorXd e_;
+  VectorXd u_;
   double quadratic_;
   double log_det_;
-  Eigen::MatrixXd own_;  ///< 2 x rows: P's block of each unit, in the columns of its rows
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks_;  ///< first row and rows of each
-  Eigen::MatrixXd taken_;                                      ///< T, with room for more
-  Eigen::Index count_ = 0;
+  MatrixXd own_;  ///< 2 x rows: P's block of each unit, in the columns of its rows
+  std::vector<std::pair<Index, Index>> blocks_;  ///< first row and rows of each
+  MatrixXd taken_;                               ///< T, with room for more
+  Index count_ = 0;
 };
 
 MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
@@ -168,7 +169,7 @@ MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
   }
   for (const int k : set) {
     if (system.regressor(k).fixed) continue;
-    const Eigen::VectorXd g = marginalised.g.col(k);
+    const VectorXd g = marginalised.g.col(k);
     shifts.free(g, g.squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise));
   }
   return shifts;
@@ -226,7 +227,7 @@ void take_out(const FreeGroup& rejected, std::vector<FreeGroup>& free, Flags& ou
       continue;
     }
     if (other.group != rejected.group && rejected.direction && other.direction) {
-      Eigen::Vector2d& d = *other.direction;
+      Vector2d& d = *other.direction;
       d -= *rejected.direction * rejected.direction->dot(d);
       if (d.norm() > kNoDirection) {
         d.normalize();
@@ -244,7 +245,7 @@ FoundSet search(MeanShifts shifts, const RegressorSystem& system,
                 double log_prior) {
   const auto count = as_double(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
-  Eigen::Index n = marginalised.kept.size();
+  Index n = marginalised.kept.size();
   const OutlierLimits& limits = system.limits;
   double price = 0.0;  // prior and density of what was rejected
   const auto weight = [&] {

@@ -5,6 +5,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -12,10 +13,10 @@ namespace {
 
 /// The values of every unit in the pictures, whitened, all rows.
 struct Residuals {
-  Eigen::VectorXd before;  ///< of the calibrated machine
-  Eigen::VectorXd after;   ///< with the causes named
-  Eigen::VectorXd best;    ///< what the best cause explains, settings refitted
-  Eigen::VectorXd rival;
+  VectorXd before;  ///< of the calibrated machine
+  VectorXd after;   ///< with the causes named
+  VectorXd best;    ///< what the best cause explains, settings refitted
+  VectorXd rival;
 };
 
 Residuals residuals_of(const Analysis& a) {
@@ -68,7 +69,7 @@ DistancePicture picture_of(const Analysis& a, const Residuals& residuals,
                            const observation::TapeDistances& tape, std::size_t k, std::size_t u) {
   const MeasuredHoles& set = tape.set();
   const HoleDistance& distance = set.distances[k];
-  const auto mm = [&](const Eigen::VectorXd& whitened) {
+  const auto mm = [&](const VectorXd& whitened) {
     return error_of_unit(a.system, whitened, u).x();
   };
   DistancePicture picture;

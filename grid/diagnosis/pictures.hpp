@@ -4,11 +4,11 @@
 /// naming. Lengths and shifts in mm, angles in rad, tensions in N.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
 
+#include "grid/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -19,16 +19,15 @@ struct PointPicture {
   model::MarkPoint mark;
   std::optional<int> order;
   bool bad = false;
-  Eigen::Vector2d before_mm = Eigen::Vector2d::Zero();  ///< of the calibrated machine
-  Eigen::Vector2d after_mm = Eigen::Vector2d::Zero();   ///< with the causes named
-  Eigen::Vector2d noise_sigma_mm =
-      Eigen::Vector2d::Zero();  ///< one sigma of the tool, along x and y
+  Vector2d before_mm = Vector2d::Zero();       ///< of the calibrated machine
+  Vector2d after_mm = Vector2d::Zero();        ///< with the causes named
+  Vector2d noise_sigma_mm = Vector2d::Zero();  ///< one sigma of the tool, along x and y
   /// Chain residuals [mm], measured less predicted.
-  Eigen::Vector2d chain_before_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d chain_after_mm = Eigen::Vector2d::Zero();
+  Vector2d chain_before_mm = Vector2d::Zero();
+  Vector2d chain_after_mm = Vector2d::Zero();
   /// The strip: chains' residuals that the best cause and its rival explain, settings refitted.
-  Eigen::Vector2d best_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d rival_mm = Eigen::Vector2d::Zero();
+  Vector2d best_mm = Vector2d::Zero();
+  Vector2d rival_mm = Vector2d::Zero();
   model::ChainLengths lengths;
   double angle_left_rad = 0.0;
   double angle_right_rad = 0.0;

@@ -12,11 +12,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -25,8 +25,8 @@ namespace chaintrue::grid::diagnosis {
 /// Some of a system's regressors, by number.
 using RegressorSet = std::vector<int>;
 /// Positions of rows in a matrix, of columns, and of anything in a list.
-using Rows = std::vector<Eigen::Index>;
-using ColumnSet = std::vector<Eigen::Index>;
+using Rows = std::vector<Index>;
+using ColumnSet = std::vector<Index>;
 using Indices = std::vector<std::size_t>;
 /// A flag for each unit or outlier group of a system, or for each point.
 using Flags = std::vector<bool>;
@@ -34,20 +34,20 @@ using Flags = std::vector<bool>;
 class RegressorColumns {
  public:
   RegressorColumns() = default;
-  explicit RegressorColumns(Eigen::Index rows) : distinct_(rows, 0) {}
+  explicit RegressorColumns(Index rows) : distinct_(rows, 0) {}
   /// Each column separately.
-  RegressorColumns(Eigen::MatrixXd columns)  // NOLINT(google-explicit-constructor): it is a matrix
+  RegressorColumns(MatrixXd columns)  // NOLINT(google-explicit-constructor): it is a matrix
       : distinct_(std::move(columns)), count_(distinct_.cols()) {
-    for (Eigen::Index k = 0; k < count_; ++k) of_.push_back({k, 1.0});
+    for (Index k = 0; k < count_; ++k) of_.push_back({k, 1.0});
   }
 
   /// factor times this.
-  void add(const Eigen::VectorXd& column, double factor = 1.0) {
+  void add(const VectorXd& column, double factor = 1.0) {
     if (column.size() != rows()) {
       throw precondition("a column of {} rows among columns of {}", column.size(), rows());
     }
     if (count_ == distinct_.cols()) {
-      distinct_.conservativeResize(Eigen::NoChange, std::max<Eigen::Index>(16, 2 * count_));
+      distinct_.conservativeResize(Eigen::NoChange, std::max<Index>(16, 2 * count_));
     }
     distinct_.col(count_) = column;
     of_.push_back({count_, factor});
@@ -65,25 +65,25 @@ class RegressorColumns {
 
   /// Column k is factor(k) times column index(k) of these.
   auto distinct() const { return distinct_.leftCols(count_); }
-  Eigen::Index rows() const { return distinct_.rows(); }
-  Eigen::Index cols() const { return std::ssize(of_); }
-  auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
+  Index rows() const { return distinct_.rows(); }
+  Index cols() const { return std::ssize(of_); }
+  auto col(Index k) const { return distinct_.col(index(k)) * factor(k); }
   /// Some rows of a column.
-  Eigen::VectorXd column(const Rows& rows, Eigen::Index k) const {
+  VectorXd column(const Rows& rows, Index k) const {
     return distinct_.col(index(k))(rows) * factor(k);
   }
 
   /// rows() x cols()
-  Eigen::MatrixXd dense() const {
-    Eigen::MatrixXd result(rows(), cols());
-    for (Eigen::Index k = 0; k < cols(); ++k) result.col(k) = col(k);
+  MatrixXd dense() const {
+    MatrixXd result(rows(), cols());
+    for (Index k = 0; k < cols(); ++k) result.col(k) = col(k);
     return result;
   }
 
   /// rows() x columns.size()
-  Eigen::MatrixXd dense(const RegressorSet& columns) const {
-    Eigen::MatrixXd result(rows(), std::ssize(columns));
-    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+  MatrixXd dense(const RegressorSet& columns) const {
+    MatrixXd result(rows(), std::ssize(columns));
+    for (Index k = 0; k < result.cols(); ++k) {
       result.col(k) = col(columns[as_size(k)]);
     }
     return result;
@@ -92,7 +92,7 @@ class RegressorColumns {
   RegressorColumns subset(const ColumnSet& columns) const {
     ColumnSet kept;  // for the distinct columns, in their order
     RegressorColumns result;
-    for (const Eigen::Index k : columns) {
+    for (const Index k : columns) {
       if (kept.empty() || kept.back() != index(k)) kept.push_back(index(k));
       result.of_.push_back({std::ssize(kept) - 1, factor(k)});
     }
@@ -112,31 +112,31 @@ class RegressorColumns {
   }
 
   /// cols(): inner products of every column with a vector.
-  Eigen::VectorXd transpose_times(const Eigen::VectorXd& vector) const {
-    const Eigen::VectorXd products = linear::product(linear::transposed(distinct()), vector);
-    Eigen::VectorXd result(cols());
-    for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * products(index(k));
+  VectorXd transpose_times(const VectorXd& vector) const {
+    const VectorXd products = linear::product(linear::transposed(distinct()), vector);
+    VectorXd result(cols());
+    for (Index k = 0; k < cols(); ++k) result(k) = factor(k) * products(index(k));
     return result;
   }
 
   /// cols()
-  Eigen::VectorXd squared_norms() const {
-    const Eigen::VectorXd squares = distinct().colwise().squaredNorm();
-    Eigen::VectorXd result(cols());
-    for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * factor(k) * squares(index(k));
+  VectorXd squared_norms() const {
+    const VectorXd squares = distinct().colwise().squaredNorm();
+    VectorXd result(cols());
+    for (Index k = 0; k < cols(); ++k) result(k) = factor(k) * factor(k) * squares(index(k));
     return result;
   }
 
-  Eigen::Index index(Eigen::Index k) const { return of_[as_size(k)].index; }
-  double factor(Eigen::Index k) const { return of_[as_size(k)].factor; }
+  Index index(Index k) const { return of_[as_size(k)].index; }
+  double factor(Index k) const { return of_[as_size(k)].factor; }
 
  private:
   struct Multiple {
-    Eigen::Index index = 0;
+    Index index = 0;
     double factor = 1.0;
   };
-  Eigen::MatrixXd distinct_;  ///< with room for more
-  Eigen::Index count_ = 0;
+  MatrixXd distinct_;  ///< with room for more
+  Index count_ = 0;
   std::vector<Multiple> of_;
 };
 

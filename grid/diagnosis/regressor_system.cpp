@@ -18,7 +18,7 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   std::vector<estimation::ObservedFrom> from;
   for (const ObservationPart& part : set.parts) {
     const auto settings = std::ssize(set.columns_of(part));
-    from.push_back({state.view(part), Eigen::VectorXd::Zero(settings)});
+    from.push_back({state.view(part), VectorXd::Zero(settings)});
   }
   auto line = estimation::linearise(set, from, estimation::Prediction::visit_by_visit);
   if (!line) {

@@ -14,7 +14,6 @@
 /// continues through zero as a straight line.
 #pragma once
 
-#include <Eigen/Core>
 #include <limits>
 #include <optional>
 #include <tl/expected.hpp>
@@ -23,6 +22,7 @@
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/observations.hpp"
 #include "grid/diagnosis/regressor_columns.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -62,16 +62,16 @@ struct Regressor : SizedCause {
 /// Readings that one slip spoils together, as a direction of one or two consecutive rows. Groups of
 /// the same rows follow one another.
 struct OutlierGroup {
-  Eigen::Index first_row = 0;
-  Eigen::Index rows = 1;
+  Index first_row = 0;
+  Index rows = 1;
   /// A direction between two rows, not zero; absent: all rows.
-  std::optional<Eigen::Vector2d> direction{};
+  std::optional<Vector2d> direction{};
 };
 
 /// Limits of a search for outliers, besides kMostOutlierShare of the groups.
 struct OutlierLimits {
   std::size_t fewest_groups = 0;  ///< number that remains
-  Eigen::Index fewest_rows = 0;   ///< number that remains
+  Index fewest_rows = 0;          ///< number that remains
   /// Groups tried beyond the best set so far: several bad ones can mask one another.
   std::size_t beyond_the_best = std::numeric_limits<std::size_t>::max();
 };
@@ -97,7 +97,7 @@ struct CausePrior {
 struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
   std::vector<Regressor> regressors;
-  const Regressor& regressor(Eigen::Index k) const { return regressors[as_size(k)]; }
+  const Regressor& regressor(Index k) const { return regressors[as_size(k)]; }
   RegressorSet regressors_of(const CauseId& cause) const {
     auto all = numbers_below<int>(regressors.size());
     std::erase_if(all, [&](int k) { return regressor(k).cause != cause; });
@@ -106,9 +106,9 @@ struct RegressorSystem : estimation::LinearisedSystem {
   /// Of a mechanism whose lengths are not those of two chains: a place for each unit, whose by_reading has
   /// the lengths' effect on its rows.
   bool is_of_lengths() const { return !places.empty() && !places.front().length_mm.empty(); }
-  Eigen::VectorXd setting;          ///< q, value in the state
-  Eigen::VectorXd expected_change;  ///< q, stated value minus that
-  Eigen::VectorXd sigma;            ///< q, one sigma as stated
+  VectorXd setting;          ///< q, value in the state
+  VectorXd expected_change;  ///< q, stated value minus that
+  VectorXd sigma;            ///< q, one sigma as stated
   CausePrior prior;
   double noise_dof = 15.0;  ///< degrees of freedom of the noise
   /// The readings that one slip spoils; empty: each unit is a group.

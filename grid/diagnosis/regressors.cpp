@@ -44,8 +44,8 @@ std::vector<model::MachineProblem> problems_with_effect(const State& state, Caus
 }
 
 /// The predicted readings of a machine in this state, all rows.
-std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const State& state) {
-  Eigen::VectorXd all(session.rows);
+std::optional<VectorXd> predicted(const ObservationSet& session, const State& state) {
+  VectorXd all(session.rows);
   for (const ObservationPart& part : session.parts) {
     const auto own = part.observation->predicted(state.view(part));
     if (!own) return std::nullopt;
@@ -57,9 +57,9 @@ std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const St
 bool is_of_readings(CauseId cause) { return cause.effect->station == Station::reading; }
 
 /// What an effect adds to the chains at a place, or to the written readings there.
-Eigen::Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, CauseId cause,
-                         const std::vector<double>& values) {
-  Eigen::Vector2d mm = Eigen::Vector2d::Zero();
+Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, CauseId cause,
+                  const std::vector<double>& values) {
+  Vector2d mm = Vector2d::Zero();
   if (is_of_readings(cause) && !place.ordered) return mm;
   const model::Pose& pose = place.state.reading.pose;
   for (const model::Side side : model::kSides) {
@@ -73,13 +73,13 @@ Eigen::Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprock
 
 /// The whitened column of an effect that is added to a chain or to the written reading: the poses
 /// are unchanged.
-Eigen::VectorXd added(const RegressorSystem& system, const model::Sprocket& sprocket, CauseId cause,
-                      const std::vector<double>& values) {
-  std::vector<Eigen::Vector2d> mm;
+VectorXd added(const RegressorSystem& system, const model::Sprocket& sprocket, CauseId cause,
+               const std::vector<double>& values) {
+  std::vector<Vector2d> mm;
   for (const SystemPlace& place : system.places) {
     mm.push_back(added_at(place, sprocket, cause, values));
   }
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
+  VectorXd column = VectorXd::Zero(system.e.size());
   for (const SystemUnit& unit : system.units) {
     for (const observation::PlaceColumns& place_columns : unit.places) {
       column.segment(unit.first_row, unit.rows) += place_columns.by_chain * mm[place_columns.place];
@@ -93,10 +93,10 @@ struct Signatures {
   const ObservationSet& session;
   const State& state;
   const RegressorSystem& system;
-  std::optional<Eigen::VectorXd> without{};
+  std::optional<VectorXd> without{};
 
   /// As signature().
-  std::optional<Eigen::VectorXd> operator()(const SizedCause& sized) {
+  std::optional<VectorXd> operator()(const SizedCause& sized) {
     const auto& [cause, values] = sized;
     if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
       return added(system, state.machine.sprocket, cause, values);
@@ -240,8 +240,8 @@ Candidates candidates(const ObservationSet& session) {
   return result;
 }
 
-std::optional<Eigen::VectorXd> signature(const ObservationSet& session, const State& state,
-                                         const RegressorSystem& system, const SizedCause& cause) {
+std::optional<VectorXd> signature(const ObservationSet& session, const State& state,
+                                  const RegressorSystem& system, const SizedCause& cause) {
   return Signatures{session, state, system}(cause);
 }
 
@@ -286,14 +286,14 @@ namespace {
 constexpr double kNearby = 0.95;
 
 /// The coefficient's power: the growth of the signature from half the size to the whole.
-double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
+double power_of(const VectorXd& whole, const VectorXd& half) {
   const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
   return std::max(1.0, std::round(std::log2(ratio)));
 }
 
 /// As above about a fitted size, with `nearby` at kNearby of it. A signature that hardly grows does
 /// not determine its size; one that shrinks has no power.
-double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
+double power_about(const VectorXd& whole, const VectorXd& nearby) {
   const double ratio = whole.dot(nearby) / whole.squaredNorm();
   return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
 }

@@ -4,13 +4,13 @@
 /// in.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
+#include "grid/eigen.hpp"
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -34,9 +34,9 @@ bool renew_regressors(const ObservationSet& session, const State& state,
                       const std::vector<Regressor>& regressors, RegressorSystem& system);
 
 /// The whitened column of a cause; empty if such a machine is invalid.
-std::optional<Eigen::VectorXd> signature(const ObservationSet& session, const State& state,
-                                         const RegressorSystem& system, const SizedCause& cause);
-using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const SizedCause&)>;
+std::optional<VectorXd> signature(const ObservationSet& session, const State& state,
+                                  const RegressorSystem& system, const SizedCause& cause);
+using ColumnOf = std::function<std::optional<VectorXd>(const SizedCause&)>;
 
 /// Appends a regressor with its power and range, from its column and one at a smaller size: nearby if
 /// it is refined, else half. False if it has none.

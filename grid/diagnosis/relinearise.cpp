@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -120,8 +121,7 @@ class Round {
   }
 
   /// R^-1 of a regressor's signature at other values.
-  std::optional<Eigen::VectorXd> column(std::size_t which,
-                                        const std::vector<double>& values) const {
+  std::optional<VectorXd> column(std::size_t which, const std::vector<double>& values) const {
     const auto g = signature(session_, state_, system_, {system_.regressors[which].cause, values});
     if (!g) return std::nullopt;
     return reduced(marginalised_, *g);
@@ -129,11 +129,11 @@ class Round {
 
   /// What a regressor explains by its place, after projection on the others.
   std::function<double(double)> gain_given_others(std::size_t which) const {
-    Eigen::MatrixXd others(marginalised_.e.size(), marginalised_.g.cols() - 1);
-    for (Eigen::Index k = 0; k < others.cols(); ++k)
+    MatrixXd others(marginalised_.e.size(), marginalised_.g.cols() - 1);
+    for (Index k = 0; k < others.cols(); ++k)
       others.col(k) = marginalised_.g.col(k < as_index(which) ? k : k + 1);
     const auto without = [gram = linear::PivotedCholesky(linear::gram(others)),
-                          others](Eigen::VectorXd v) {
+                          others](VectorXd v) {
       if (others.cols() > 0) {
         linear::add_product(v, -1.0, others,
                             gram.solve(linear::product(linear::transposed(others), v)));
@@ -145,7 +145,7 @@ class Round {
       values.back() = place;
       const auto g = column(which, values);
       if (!g) return 0.0;
-      const Eigen::VectorXd left = without(*g);
+      const VectorXd left = without(*g);
       const double square = left.squaredNorm();
       const double c = left.dot(e);
       const double sign = estimate_.coefficient(as_index(which));
@@ -179,7 +179,7 @@ void relinearise(Analysis& a) {
     MarginalisedSystem there = marginalise(*about, marginalised.outliers);
     there.discrepancy_trace = marginalised.discrepancy_trace;  // the discrepancy keeps its strength
     const Round here(session, a.state, *about, std::move(there), discrepancy);
-    const Eigen::Index settings = session.setting_columns();
+    const Index settings = session.setting_columns();
     bool converged = here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() <
                      kConvergedSettingMm;
     std::vector<Regressor> moved = own;

@@ -21,10 +21,10 @@ double score_alone(const Regressor& regressor, double c, double square) {
 }
 
 /// Adds the places of each cause that explain most of `e`.
-void add_best(const RegressorSystem& system, const Eigen::MatrixXd& g, const Eigen::VectorXd& e,
+void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& e,
               std::size_t of_a_cause, std::set<int>& chosen) {
-  const Eigen::VectorXd c = linear::product(linear::transposed(g), e);
-  const Eigen::VectorXd square = g.colwise().squaredNorm();
+  const VectorXd c = linear::product(linear::transposed(g), e);
+  const VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
   const auto take = [&] {
     stable_sort(scores, descending(&std::pair<double, int>::first));
@@ -48,7 +48,7 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
                                 const ComparisonOptions& options, std::size_t of_a_cause) {
   std::set<int> chosen;
-  const Eigen::MatrixXd all = marginalised.g.dense();
+  const MatrixXd all = marginalised.g.dense();
   add_best(system, all, marginalised.e, of_a_cause, chosen);
   std::vector<std::pair<double, int>> likeliest;
   for (const int k : chosen) {
@@ -63,10 +63,10 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
     if (taken.size() == kTakenOut) break;
     if (contains(taken, cause)) continue;
     taken.push_back(cause);
-    const Eigen::VectorXd own = all.col(k).normalized();
-    Eigen::MatrixXd g = all;
-    const Eigen::VectorXd along = linear::product(linear::transposed(all), own);
-    for (Eigen::Index column = 0; column < g.cols(); ++column) g.col(column) -= along[column] * own;
+    const VectorXd own = all.col(k).normalized();
+    MatrixXd g = all;
+    const VectorXd along = linear::product(linear::transposed(all), own);
+    for (Index column = 0; column < g.cols(); ++column) g.col(column) -= along[column] * own;
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
   std::erase_if(chosen, [&](int k) {
@@ -102,7 +102,7 @@ std::vector<CandidateModel> SetSearch::run() {
     return collector_.take();
   }
   sets_.weigh({});
-  for (Eigen::Index k = 0; k < equations_.ge.size(); ++k) sets_.weigh({k});
+  for (Index k = 0; k < equations_.ge.size(); ++k) sets_.weigh({k});
   if (!options_.given_cause) {
     pairs();
     sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
@@ -122,7 +122,7 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& ke
   std::vector<RegressorSet> likeliest;
   for (const WeighedSet& own : leading) {
     RegressorSet& regressors = likeliest.emplace_back();
-    for (const Eigen::Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
+    for (const Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
   }
   kernel_weight = search_given_discrepancies(system_, marginalised_, options_, equations_,
                                              likeliest, kernels, collector_);
@@ -134,8 +134,8 @@ RegressorSet SetSearch::columns() const {
   RegressorSet fixed;
   RegressorSet shifts;
   const auto count = static_cast<int>(system_.regressors.size());
-  const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
-  const Eigen::VectorXd square = marginalised_.g.squared_norms();
+  const VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
+  const VectorXd square = marginalised_.g.squared_norms();
   for (int k = 0; k < count; ++k) {
     const Regressor& d = system_.regressor(k);
     if (options_.given_cause && d.cause != *options_.given_cause) continue;
@@ -152,8 +152,7 @@ RegressorSet SetSearch::columns() const {
   }
   keep_best(likeliest, 8, explained);
   const RegressorColumns& g = marginalised_.g;
-  const Eigen::MatrixXd cross =
-      linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
+  const MatrixXd cross = linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
   std::vector<std::pair<double, int>> gains;
   for (const int k : fixed) {
     double best = 2.0 * c(k) - square(k);
@@ -169,7 +168,7 @@ RegressorSet SetSearch::columns() const {
   return kept;
 }
 
-double SetSearch::quick_weight(Eigen::Index i, Eigen::Index j) const {
+double SetSearch::quick_weight(Index i, Index j) const {
   const Regressor& a = sets_.regressor(i);
   const Regressor& b = sets_.regressor(j);
   const double aa = equations_.gg(i, i);
@@ -180,11 +179,11 @@ double SetSearch::quick_weight(Eigen::Index i, Eigen::Index j) const {
   const double ab = equations_.gg(i, j);
   double occam = 0.0;
   const double kWide = kWideSignalToNoise * kWideSignalToNoise;
-  const auto precision = [&](Eigen::Index k) {
+  const auto precision = [&](Index k) {
     return equations_.prior_square(k) / equations_.gg(k, k) / kWide;
   };
   // One sigma of the strength, in this metric.
-  const auto usual = [&](Eigen::Index k) {
+  const auto usual = [&](Index k) {
     return kUsualSignalToNoise * std::sqrt(equations_.gg(k, k) / equations_.prior_square(k));
   };
   if (a.fixed && b.fixed) {
@@ -194,7 +193,7 @@ double SetSearch::quick_weight(Eigen::Index i, Eigen::Index j) const {
     const double cf = a.fixed ? ca : cb;
     const double oo = a.fixed ? bb : aa;
     const double co = (a.fixed ? cb : ca) - ab;
-    const Eigen::Index free = a.fixed ? j : i;
+    const Index free = a.fixed ? j : i;
     q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision(free)));
     occam = std::log(usual(free));
   } else {
@@ -216,8 +215,8 @@ void SetSearch::pairs() {
   const auto count = std::ssize(equations_.columns);
   std::vector<std::pair<double, ColumnSet>> quick;
   double best = kMinusInfinity;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = 0; j < i; ++j) {
       if (!compatible(sets_.regressor(i), sets_.regressor(j), options_.search)) continue;
       const double weight = quick_weight(i, j);
       if (weight < best - kPairsWithin) continue;
@@ -236,12 +235,12 @@ ColumnSet SetSearch::extensions(const ColumnSet& parent) const {
   // The parent's residual and that of each regressor give a score for the cost of one inner
   // product.
   const linear::PivotedCholesky own(equations_.gg(parent, parent));
-  const Eigen::MatrixXd across = equations_.gg(Eigen::all, parent);
-  Eigen::VectorXd left = equations_.ge;
-  linear::add_product(left, -1.0, across, own.solve(Eigen::VectorXd(equations_.ge(parent))));
-  const Eigen::MatrixXd shares = own.solve(across.transpose());
-  std::vector<std::pair<double, Eigen::Index>> order;
-  for (Eigen::Index i = 0; i < left.size(); ++i) {
+  const MatrixXd across = equations_.gg(Eigen::all, parent);
+  VectorXd left = equations_.ge;
+  linear::add_product(left, -1.0, across, own.solve(VectorXd(equations_.ge(parent))));
+  const MatrixXd shares = own.solve(across.transpose());
+  std::vector<std::pair<double, Index>> order;
+  for (Index i = 0; i < left.size(); ++i) {
     if (!sets_.fits(parent, i)) continue;
     const double square = equations_.gg(i, i) - across.row(i).dot(shares.col(i));
     if (!(square > 1e-6 * equations_.gg(i, i))) continue;

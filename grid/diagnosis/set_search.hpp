@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/diagnosis/model_collector.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -33,7 +34,7 @@ class SetSearch {
   /// visits; of the others the best, alone or after projection on a leading regressor.
   RegressorSet columns() const;
   /// Upper bound of a pair's weight, ignoring bounds and larger noise.
-  double quick_weight(Eigen::Index i, Eigen::Index j) const;
+  double quick_weight(Index i, Index j) const;
   void pairs();
   /// The columns that explain most of what a set leaves.
   ColumnSet extensions(const ColumnSet& parent) const;

@@ -4,6 +4,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/failed.hpp"
 
@@ -12,11 +13,11 @@ namespace {
 
 /// Residuals with the placement of the sheet, and nothing else, fitted to the points that count:
 /// whitened rows of points.
-Eigen::VectorXd placed(RegressorSystem system, const Eigen::VectorXd& left) {
-  const Eigen::Index sheet = system.setting.size() - std::ssize(model::kMachineSettings);
+VectorXd placed(RegressorSystem system, const VectorXd& left) {
+  const Index sheet = system.setting.size() - std::ssize(model::kMachineSettings);
   if (sheet == 0) return left;
   system.by_setting = system.by_setting.rightCols(sheet).eval();
-  system.setting = system.expected_change = Eigen::VectorXd::Zero(sheet);
+  system.setting = system.expected_change = VectorXd::Zero(sheet);
   system.sigma = system.sigma.tail(sheet).eval();
   system.g = RegressorColumns(system.e.size());
   system.e = left;
@@ -25,11 +26,11 @@ Eigen::VectorXd placed(RegressorSystem system, const Eigen::VectorXd& left) {
 }
 
 /// Residuals of the second session with the first one's model, before placing its sheet.
-Eigen::VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet& to,
-                        const State& state, const RegressorSystem& system) {
+VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet& to,
+                 const State& state, const RegressorSystem& system) {
   const auto machine = std::ssize(model::kMachineSettings);
-  Eigen::VectorXd left = system.e - linear::product(system.by_setting.leftCols(machine),
-                                                    model.setting_change.head(machine));
+  VectorXd left = system.e - linear::product(system.by_setting.leftCols(machine),
+                                             model.setting_change.head(machine));
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
     const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
@@ -60,8 +61,8 @@ Indices block_numbers(const ObservationSet& session) {
   return number;
 }
 
-HeldOut summary(const ObservationSet& to, const RegressorSystem& system,
-                const Eigen::VectorXd& left, std::uint64_t seed) {
+HeldOut summary(const ObservationSet& to, const RegressorSystem& system, const VectorXd& left,
+                std::uint64_t seed) {
   return summarise(errors_of_units(system, left, numbers_below(system.units.size())),
                    block_numbers(to), seed);
 }

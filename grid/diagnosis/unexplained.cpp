@@ -7,6 +7,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/eigen.hpp"
 #include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -96,7 +97,7 @@ Key most_of(const std::map<Key, double>& weights, double whole, Key otherwise) {
 
 /// The decision's discrepancy in all rows, and its length in units of noise.
 struct Pattern {
-  Eigen::VectorXd rows;
+  VectorXd rows;
   double signal_to_noise = 0.0;
 };
 /// \pre The decision has a best discrepancy.
@@ -150,24 +151,24 @@ constexpr double kTimeOverPlace = 0.3;
 ///
 /// X, the columns of settings, nuisances (B, with their sigmas s) and named causes; P, their prior
 /// precision.
-Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
+MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
   const Unknowns unknowns =
       unknowns_of(a.system, marginalised_system(a), a.estimate.free_regressors());
   // X in units of each unknown's prior sigma.
-  const Eigen::MatrixXd design = linear::scaled_columns(unknowns.design, unknowns.sigma);
-  const Eigen::Index n = design.rows();
-  const Eigen::Index shared = a.system.nuisances;
+  const MatrixXd design = linear::scaled_columns(unknowns.design, unknowns.sigma);
+  const Index n = design.rows();
+  const Index shared = a.system.nuisances;
   const auto by_nuisance = design.middleCols(a.system.by_setting.cols() - shared, shared);
   const linear::Cholesky normal(linear::one_plus_gram(design));
   Random random(a.options.seed, stream);
-  Eigen::MatrixXd z(n, draws);
-  Eigen::VectorXd u(shared);
-  for (Eigen::Index draw = 0; draw < draws; ++draw) {
-    for (Eigen::Index i = 0; i < n; ++i) z(i, draw) = random.normal();
-    for (Eigen::Index q = 0; q < shared; ++q) u(q) = random.normal();
+  MatrixXd z(n, draws);
+  VectorXd u(shared);
+  for (Index draw = 0; draw < draws; ++draw) {
+    for (Index i = 0; i < n; ++i) z(i, draw) = random.normal();
+    for (Index q = 0; q < shared; ++q) u(q) = random.normal();
     linear::add_product(z.col(draw), 1.0, by_nuisance, u);
   }
-  const Eigen::MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
+  const MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
   linear::add_product(z, -1.0, design, taken);
   if (shared > 0) {
     linear::add_product(z, 1.0, by_nuisance,
@@ -179,17 +180,17 @@ Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream
 /// With V of the noise in the readings: are neighbours more alike, e'V^-1 K V^-1 e / e'V^-1 e, than in fitted noise?
 double p_of_structure(const Analysis& a) {
   const KeptRows& kept = marginalised_system(a).kept;
-  Eigen::MatrixXd e(kept.size(), kLeftOverDraws + 1);
+  MatrixXd e(kept.size(), kLeftOverDraws + 1);
   e.col(0) = kept(left_of_machine(a.system, a.estimate, a.estimate.left));
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kLeftOverDraws) = left_of_noise(a, kLeftOverDraws, kStream);
-  const Eigen::MatrixXd factor =
+  const MatrixXd factor =
       discrepancy_factor(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
-  const Eigen::MatrixXd weighed = nuisance_noise(a.system, kept).solve(e);
-  const Eigen::ArrayXd in_common =
+  const MatrixXd weighed = nuisance_noise(a.system, kept).solve(e);
+  const ArrayXd in_common =
       linear::product(linear::transposed(factor), weighed).colwise().squaredNorm();
-  const Eigen::ArrayXd all = (e.array() * weighed.array()).colwise().sum();
-  const Eigen::ArrayXd share = in_common / all.max(1e-300);
+  const ArrayXd all = (e.array() * weighed.array()).colwise().sum();
+  const ArrayXd share = in_common / all.max(1e-300);
   const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();
   return (as_double(above) + 1.0) / (kLeftOverDraws + 1.0);
 }
@@ -210,7 +211,7 @@ constexpr Coordinate kAlong[] = {Coordinate::angle_left,
 double share_along(const Analysis& a, Coordinate coordinate) {
   const Flags& outliers = marginalised_system(a).outliers;
   std::vector<double> t;
-  std::vector<Eigen::Vector2d> chain;
+  std::vector<Vector2d> chain;
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {
     const SystemUnit& unit = a.system.units[u];
     if (outliers[u] || !unit.reads_chains) continue;
@@ -221,16 +222,16 @@ double share_along(const Analysis& a, Coordinate coordinate) {
   const auto [low, high] = minmax_element(t);
   if (!(*high > *low)) return 0.0;
   const auto n = std::ssize(t);
-  Eigen::MatrixXd basis(n, kDegree + 1);
-  Eigen::MatrixXd values(n, 2);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  MatrixXd basis(n, kDegree + 1);
+  MatrixXd values(n, 2);
+  for (Index i = 0; i < n; ++i) {
     const double x = 2.0 * (t[as_size(i)] - *low) / (*high - *low) - 1.0;
     basis(i, 0) = 1.0;
     basis(i, 1) = x;
     for (int k = 2; k <= kDegree; ++k) basis(i, k) = 2.0 * x * basis(i, k - 1) - basis(i, k - 2);
     values.row(i) = chain[as_size(i)].transpose();
   }
-  Eigen::MatrixXd rest = values;
+  MatrixXd rest = values;
   linear::add_product(rest, -1.0, basis, linear::least_squares(basis, values));
   const double of_noise = as_double(n - kDegree - 1) / as_double(n);
   return 1.0 - rest.squaredNorm() / (of_noise * std::max(values.squaredNorm(), 1e-300));

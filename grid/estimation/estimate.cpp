@@ -14,9 +14,9 @@
 namespace chaintrue::grid::estimation {
 
 ParameterKnowledge stated_knowledge(const model::Machine& machine) {
-  ParameterKnowledge knowledge{Eigen::VectorXd::Zero(kMachineUnknowns),
-                               Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns)};
-  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
+  ParameterKnowledge knowledge{VectorXd::Zero(kMachineUnknowns),
+                               MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns)};
+  for (Index i = 0; i < kMachineSettingCount; ++i) {
     const double sigma =
         std::max(model::stated_sigma(machine, model::kMachineSettings[as_size(i)]), kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;

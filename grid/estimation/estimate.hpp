@@ -38,7 +38,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <optional>
@@ -46,6 +45,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
@@ -72,13 +72,13 @@ inline constexpr double kSurfaceEvidence = 3.0;
 inline constexpr std::size_t kFewestSingleRows = 5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
-inline constexpr Eigen::Index kMachineUnknowns = model::kMachineSettings.size() + 2;
+inline constexpr Index kMachineUnknowns = model::kMachineSettings.size() + 2;
 
 /// Prior of a mechanism's parameters, as deviations from the stated values; for two chains also of
 /// both scales, which come last.
 struct ParameterKnowledge {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
+  VectorXd mean;
+  MatrixXd covariance;
 };
 /// The machine's stated uncertainty, and kScaleSigma of each scale.
 ParameterKnowledge stated_knowledge(const model::Machine& machine);
@@ -121,7 +121,7 @@ struct EstimationInput {
   int intervals_x = 0;
   int intervals_y = 0;
   /// For each unit, 0: rejected; no reweighting then, and settings converge to 1e-6 sigmas.
-  std::optional<Eigen::VectorXd> fixed_weights;
+  std::optional<VectorXd> fixed_weights;
   /// Single readings are searched for outliers; with fixed_weights alone.
   std::optional<ReadingLimits> reading_limits;
   std::vector<UnitGroup> held_out_together;
@@ -137,10 +137,10 @@ struct UnitEstimate {
   std::size_t unit = 0;   ///< into the observation's
   double weight = 1.0;    ///< in the final fit; 0: rejected
   double distance = 0.0;  ///< of the left-out residual, in sigmas
-  Eigen::VectorXd residual;
-  Eigen::VectorXd left_out;             ///< against a fit without the unit
-  Eigen::MatrixXd left_out_covariance;  ///< of that, including the unit's own noise
-  Eigen::VectorXd left_out_with_group;  ///< empty if no group has the unit
+  VectorXd residual;
+  VectorXd left_out;             ///< against a fit without the unit
+  MatrixXd left_out_covariance;  ///< of that, including the unit's own noise
+  VectorXd left_out_with_group;  ///< empty if no group has the unit
   bool is_rejected() const { return weight == 0.0; }
 };
 
@@ -156,7 +156,7 @@ struct PlaceEstimate {
   /// Position by the stated machine, with a free sheet placed as defined above.
   model::MarkPoint as_stated;
   model::MarkPoint mark;
-  Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
+  Matrix2d by_mark;             ///< d(L, R)/d(mark), corrected
   model::ChainLengths lengths;  ///< of the machine alone
 };
 
@@ -171,10 +171,10 @@ std::string words_of(const std::array<SessionZero, 2>& zeros);
 /// Results of one observation.
 struct ObservationEstimate {
   model::SheetPlacement sheet;
-  Eigen::VectorXd predicted;  ///< in the order of the observation's rows
+  VectorXd predicted;  ///< in the order of the observation's rows
   std::vector<PlaceEstimate> places;
-  Eigen::VectorXd nuisance;
-  Eigen::VectorXd nuisance_sigma;
+  VectorXd nuisance;
+  VectorXd nuisance_sigma;
   /// Zero of either chain in this session minus the machine's, mm, with one sigma; empty if the
   /// machine's zeros are those of this session.
   std::optional<std::array<SessionZero, 2>> zeros{};
@@ -184,12 +184,12 @@ struct Estimate {
   model::Machine machine;                ///< calibrated
   std::vector<model::Setting> settings;  ///< of the machine, and of the first sheet
   /// Deviations of the settings from what was stated, then the scales.
-  Eigen::VectorXd map_unknowns;
+  VectorXd map_unknowns;
   FitColumns columns;
   ResidualSurface surface;  ///< without one: scales only
   bool has_surface = false;
   double surface_log_evidence = 0.0;  ///< of the surface over none, if requested
-  Eigen::MatrixXd covariance;         ///< of all unknowns of a map, columns.total() squared
+  MatrixXd covariance;                ///< of all unknowns of a map, columns.total() squared
   ParameterKnowledge knowledge;       ///< of the parameters, afterwards
   double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
   double effective_parameters = 0.0;

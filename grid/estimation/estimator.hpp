@@ -6,7 +6,6 @@
 /// others contradict are left out one at a time, the worst first. The last pass makes the estimate.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/finished_fit.hpp"
 #include "interp/linear_algebra.hpp"
@@ -74,7 +74,7 @@ class Estimator {
   /// Choosing the smoothing costs some twenty times a solution.
   enum class Smoothing { choose, keep };
   using Fit = tl::expected<interp::PenalisedFit, EstimationFailure>;
-  Fit solve(const Eigen::VectorXd& weights, Smoothing smoothing, bool correct_covariance) const {
+  Fit solve(const VectorXd& weights, Smoothing smoothing, bool correct_covariance) const {
     const interp::PenalisedProblem problem = weighted(*problem_, weights);
     interp::FitOptions options;
     options.correct_covariance = correct_covariance;
@@ -99,8 +99,8 @@ class Estimator {
     if (is_known || !has_settings_alone) return {};
     if (auto done = problem_->linearise(state_); !done) return done;
     begin_weights();
-    const auto square_at = [](const interp::PenalisedProblem& problem, const Eigen::VectorXd& x) {
-      const Eigen::VectorXd off = x - problem.prior_mean;
+    const auto square_at = [](const interp::PenalisedProblem& problem, const VectorXd& x) {
+      const VectorXd off = x - problem.prior_mean;
       return (problem.response - linear::product(problem.design, x)).squaredNorm() +
              off.dot(linear::product(problem.prior_precision, off));
     };
@@ -109,10 +109,10 @@ class Estimator {
     double damping = 1e-4;
     is_linearised_ = true;
     for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
-      const Eigen::VectorXd downhill =
+      const VectorXd downhill =
           now.design.transpose() * (now.response - now.design * state_.settings) +
           now.prior_precision * (now.prior_mean - state_.settings);
-      Eigen::MatrixXd normal = linear::gram(now.design);
+      MatrixXd normal = linear::gram(now.design);
       normal.diagonal() *= 1.0 + damping;
       normal += now.prior_precision;
       State next = state_;
@@ -165,7 +165,7 @@ class Estimator {
       State next = problem_->state_of(fit_);
       const double step = step_to(next, rule);
       state_ = std::move(next);
-      const Eigen::VectorXd solved_with = weights_;
+      const VectorXd solved_with = weights_;
       converged_ =
           !update_weights(pass) && step < rule.step_sigmas && pass + 1 >= rule.fewest_rounds;
       if (perhaps_last && (converged_ || last)) {
@@ -182,8 +182,8 @@ class Estimator {
   void begin_weights() {
     if (weights_.size() > 0) return;
     const auto units = std::ssize(problem_->units());
-    weights_ = input_.fixed_weights.value_or(Eigen::VectorXd::Ones(units));
-    distances_ = Eigen::VectorXd::Zero(units);
+    weights_ = input_.fixed_weights.value_or(VectorXd::Ones(units));
+    distances_ = VectorXd::Zero(units);
   }
 
   /// The counted reading that the others contradict most, if they do.
@@ -215,8 +215,7 @@ class Estimator {
     std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
     for (std::size_t u = 0; u < rejected.size(); ++u) {
       const SystemUnit& unit = problem_->units()[u];
-      for (const Eigen::Index i : rejected[u])
-        of_observation[unit.observation].push_back({unit.unit, i});
+      for (const Index i : rejected[u]) of_observation[unit.observation].push_back({unit.unit, i});
     }
     const observation::Observations before = input_.observations;
     auto fit = fit_;
@@ -239,7 +238,7 @@ class Estimator {
   void reject_readings() {
     const ReadingLimits& limits = *input_.reading_limits;
     if (std::sqrt(fit_.sigma2) > limits.most_noise) return;
-    Eigen::Index readings = 0;
+    Index readings = 0;
     for (const SystemUnit& unit : problem_->units()) readings += unit.by_reading.cols();
     const auto most = static_cast<std::size_t>(limits.most_share * as_double(readings));
     const auto of_now = [this] {
@@ -270,7 +269,7 @@ class Estimator {
 
   double step_to(const State& next, const ConvergenceRule& rule) const {
     double step = 0.0;
-    for (Eigen::Index i = 0; i < problem_->settings(); ++i) {
+    for (Index i = 0; i < problem_->settings(); ++i) {
       const double stated = problem_->set().stated_sigma[i];
       if (stated <= kKnownSigma) continue;
       // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
@@ -292,10 +291,9 @@ class Estimator {
     if (input_.fixed_weights) return false;
     LeftOut left_out(*problem_, fit_, weights_);
     left_out.prepare_units();
-    for (Eigen::Index u = 0; u < distances_.size(); ++u)
-      distances_[u] = left_out.distance(as_size(u));
+    for (Index u = 0; u < distances_.size(); ++u) distances_[u] = left_out.distance(as_size(u));
     double change = 0.0;
-    Eigen::VectorXd next = weights_;
+    VectorXd next = weights_;
     for (std::size_t u = 0; u < problem_->units().size(); ++u) {
       const UnitRule rule = rule_of(problem_->units()[u].rows);
       const auto at = as_index(u);
@@ -328,7 +326,7 @@ class Estimator {
       if (!worst || distances_[at] > distances_[as_index(*worst)]) worst = u;
     }
     if (!worst || candidates <= kFewestSingleRows) return std::nullopt;
-    Eigen::VectorXd without = weights_;
+    VectorXd without = weights_;
     without[as_index(*worst)] = 0.0;
     const Fit fit = solve(without, Smoothing::choose, false);
     if (!fit) return std::nullopt;
@@ -375,8 +373,8 @@ class Estimator {
   EstimationInput input_;
   std::unique_ptr<JointProblem> problem_;
   State state_;
-  Eigen::VectorXd weights_;
-  Eigen::VectorXd distances_;
+  VectorXd weights_;
+  VectorXd distances_;
   interp::PenalisedFit fit_;
   std::vector<std::vector<model::MarkPoint>> as_stated_;
   bool converged_ = false;

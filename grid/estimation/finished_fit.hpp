@@ -3,24 +3,24 @@
 /// The estimate that the last fit of a problem leads to. Private to grid/estimation.
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/left_out.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
 
 /// The part of a map's covariance that the places observe, and the part that keeps its prior.
-inline Eigen::MatrixXd map_covariance(const JointProblem& problem, const interp::PenalisedFit& fit,
-                                      const FitColumns& columns) {
+inline MatrixXd map_covariance(const JointProblem& problem, const interp::PenalisedFit& fit,
+                               const FitColumns& columns) {
   const Unknowns& unknowns = problem.unknowns();
   const ObservedSubspace* observed = problem.observed();
-  Eigen::MatrixXd to_splines = Eigen::MatrixXd::Zero(columns.total(), unknowns.total());
+  MatrixXd to_splines = MatrixXd::Zero(columns.total(), unknowns.total());
   to_splines.topLeftCorner(columns.settings, columns.settings).setIdentity();
   for (const model::Side side : model::kSides) {
     if (unknowns.scales == 0) break;
@@ -30,9 +30,9 @@ inline Eigen::MatrixXd map_covariance(const JointProblem& problem, const interp:
     spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) = observed->polynomials;
     spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) = observed->penalised;
   }
-  Eigen::MatrixXd result = to_splines * problem.covariance(fit) * to_splines.transpose();
+  MatrixXd result = to_splines * problem.covariance(fit) * to_splines.transpose();
   if (observed == nullptr) return result;
-  const Eigen::MatrixXd unobserved =
+  const MatrixXd unobserved =
       fit.inverse_lambda * observed->null_space * observed->null_space.transpose();
   for (const model::Side side : model::kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
@@ -45,8 +45,8 @@ struct FinishedFit {
   const JointProblem& problem;
   const interp::PenalisedFit& fit;
   const State& state;
-  const Eigen::VectorXd& weights;
-  const Eigen::VectorXd& distances;  ///< of units; those with fixed weights are found here
+  const VectorXd& weights;
+  const VectorXd& distances;  ///< of units; those with fixed weights are found here
   const std::vector<std::vector<model::MarkPoint>>& as_stated;
 
   [[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate() const {
@@ -72,10 +72,10 @@ struct FinishedFit {
     const Unknowns& unknowns = problem.unknowns();
     estimate.columns = {problem.settings(), estimate.surface.basis.size()};
     estimate.covariance = map_covariance(problem, fit, estimate.columns);
-    const Eigen::VectorXd coefficients = problem.coefficients(fit);
-    const auto with_scales = [&](Eigen::Index settings) {
-      auto columns = numbers_below<Eigen::Index>(settings);
-      for (Eigen::Index i = 0; i < unknowns.scales; ++i) columns.push_back(unknowns.of_set + i);
+    const VectorXd coefficients = problem.coefficients(fit);
+    const auto with_scales = [&](Index settings) {
+      auto columns = numbers_below<Index>(settings);
+      for (Index i = 0; i < unknowns.scales; ++i) columns.push_back(unknowns.of_set + i);
       return columns;
     };
     estimate.map_unknowns = coefficients(with_scales(problem.settings()));
@@ -92,7 +92,7 @@ struct FinishedFit {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
       const UnitMatrix back = unit.whitening.inverse();
-      const Eigen::MatrixXd rows = problem.design().middleRows(unit.first_row, unit.rows);
+      const MatrixXd rows = problem.design().middleRows(unit.first_row, unit.rows);
       const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
       UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};
       own.residual = back * (unit.segment(problem.response()) - rows * fit.coefficients);
@@ -116,8 +116,8 @@ struct FinishedFit {
   }
 
   tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const {
-    const Eigen::VectorXd coefficients = problem.coefficients(fit);
-    const Eigen::VectorXd sigma = problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const VectorXd coefficients = problem.coefficients(fit);
+    const VectorXd sigma = problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
     const auto corrections = problem.corrections_of(state);
     for (std::size_t k = 0; k < problem.set().parts.size(); ++k) {
       const ObservationPart& part = problem.set().parts[k];
@@ -131,8 +131,8 @@ struct FinishedFit {
       }
       own.predicted = line->predicted;
       if (!part.zero_columns.empty()) {
-        const Eigen::Vector2d zeros = coefficients(part.zero_columns);
-        const Eigen::Vector2d zero_sigma = sigma(part.zero_columns);
+        const Vector2d zeros = coefficients(part.zero_columns);
+        const Vector2d zero_sigma = sigma(part.zero_columns);
         own.zeros = {{{zeros[0], zero_sigma[0]}, {zeros[1], zero_sigma[1]}}};
         for (std::size_t u = 0; u < line->units.size(); ++u) {
           const observation::Unit& rows = part.observation->units()[u];

@@ -16,10 +16,10 @@
 ///   F = -(M G_f)^-1 M G_r,   a = -(M G_f)^-1 M (m - c - g)                                  (1)
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
@@ -30,20 +30,20 @@ namespace chaintrue::grid::estimation {
 struct PlacesOnSheet {
   std::vector<model::MarkPoint> commanded;
   std::vector<model::MarkPoint> marks;
-  Eigen::MatrixXd by_unknown;  ///< G
-  Eigen::VectorXd moved;       ///< g
-  std::vector<Eigen::Index> free_columns;
-  std::vector<Eigen::Index> free_rows;  ///< of M, in the same order
+  MatrixXd by_unknown;  ///< G
+  VectorXd moved;       ///< g
+  std::vector<Index> free_columns;
+  std::vector<Index> free_rows;  ///< of M, in the same order
 
   /// M
-  Eigen::MatrixXd whole_motion() const {
+  MatrixXd whole_motion() const {
     const auto count = std::ssize(commanded);
-    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    Vector2d middle = Vector2d::Zero();
     for (const model::MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
-    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
+    MatrixXd motion = MatrixXd::Zero(3, 2 * count);
     double squares = 0.0;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Vector2d at = vector_of(commanded[as_size(i)]) - middle;
+    for (Index i = 0; i < count; ++i) {
+      const Vector2d at = vector_of(commanded[as_size(i)]) - middle;
       motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / as_double(count);
       motion(2, 2 * i) = -at.y();
       motion(2, 2 * i + 1) = at.x();
@@ -54,8 +54,8 @@ struct PlacesOnSheet {
   }
 
   /// m - c
-  Eigen::VectorXd alongside() const {
-    Eigen::VectorXd all(2 * std::ssize(marks));
+  VectorXd alongside() const {
+    VectorXd all(2 * std::ssize(marks));
     for (std::size_t i = 0; i < marks.size(); ++i) {
       all.segment<2>(2 * as_index(i)) = difference(marks[i], commanded[i]);
     }
@@ -65,24 +65,24 @@ struct PlacesOnSheet {
 
 /// Free directions of all sheets.
 struct FreeDirections {
-  std::vector<Eigen::Index> columns;  ///< x_f
-  Eigen::VectorXd constant;           ///< a
-  Eigen::MatrixXd following;          ///< F by all unknowns, nothing by x_f
+  std::vector<Index> columns;  ///< x_f
+  VectorXd constant;           ///< a
+  MatrixXd following;          ///< F by all unknowns, nothing by x_f
 
   /// Adds (1) of one observation. \returns its marks with the free directions corrected and all else
   /// unchanged.
   std::vector<model::MarkPoint> add(const PlacesOnSheet& places) {
     std::vector<model::MarkPoint> marks = places.marks;
     if (places.free_columns.empty()) return marks;
-    const Eigen::MatrixXd motion = places.whole_motion()(places.free_rows, Eigen::all);
-    const Eigen::MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
-    const Eigen::MatrixXd inverse = linear::inverse(linear::product(motion, by_free));
-    const Eigen::VectorXd alongside = places.alongside();
-    const auto needed = [&](const Eigen::VectorXd& off) -> Eigen::VectorXd {
+    const MatrixXd motion = places.whole_motion()(places.free_rows, Eigen::all);
+    const MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
+    const MatrixXd inverse = linear::inverse(linear::product(motion, by_free));
+    const VectorXd alongside = places.alongside();
+    const auto needed = [&](const VectorXd& off) -> VectorXd {
       return -linear::product(inverse, linear::product(motion, off));
     };
-    const Eigen::Index before = constant.size();
-    const Eigen::Index more = std::ssize(places.free_columns);
+    const Index before = constant.size();
+    const Index more = std::ssize(places.free_columns);
     append_all(columns, places.free_columns);
     constant.conservativeResize(before + more);
     constant.tail(more) = needed(alongside - places.moved);
@@ -90,7 +90,7 @@ struct FreeDirections {
     following.bottomRows(more) =
         -linear::product(inverse, linear::product(motion, places.by_unknown));
     following.bottomRows(more)(Eigen::all, places.free_columns).setZero();
-    const Eigen::VectorXd shift = linear::product(by_free, needed(alongside));
+    const VectorXd shift = linear::product(by_free, needed(alongside));
     for (std::size_t i = 0; i < marks.size(); ++i) {
       marks[i].x_mm += shift[2 * as_index(i)];
       marks[i].y_mm += shift[2 * as_index(i) + 1];

@@ -3,31 +3,30 @@
 /// The penalised problem of a fit: weighted rows and priors. Private to grid/estimation.
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/joint_problem.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 
-inline void add_weighted_rows(const JointProblem& joint, const Eigen::VectorXd& weights,
+inline void add_weighted_rows(const JointProblem& joint, const VectorXd& weights,
                               interp::PenalisedProblem& problem) {
   if (joint.local() != nullptr) {
     joint.local()->add_rows(joint.response(), weights, problem);
     return;
   }
-  Eigen::MatrixXd design(joint.design().rows(), joint.design().cols());
-  Eigen::VectorXd response(joint.design().rows());
-  Eigen::Index rows = 0;
+  MatrixXd design(joint.design().rows(), joint.design().cols());
+  VectorXd response(joint.design().rows());
+  Index rows = 0;
   for (std::size_t u = 0; u < joint.units().size(); ++u) {
     const double weight = weights[as_index(u)];
     if (weight == 0.0) continue;
     const SystemUnit& unit = joint.units()[u];
-    const Eigen::MatrixXd left =
-        std::sqrt(weight) * without_readings(unit, joint.rejected(u)).transpose();
+    const MatrixXd left = std::sqrt(weight) * without_readings(unit, joint.rejected(u)).transpose();
     design.middleRows(rows, left.rows()) =
         left * joint.design().middleRows(unit.first_row, unit.rows);
     response.segment(rows, left.rows()) = left * unit.segment(joint.response());
@@ -45,37 +44,37 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
   precision.head(unknowns.of_set) = set.stated_sigma.cwiseAbs2().cwiseInverse();
   precision.segment(unknowns.of_set, unknowns.scales)
       .setConstant(1.0 / (kScaleSigma * kScaleSigma));
-  std::vector<Eigen::Index> of_noise;
+  std::vector<Index> of_noise;
   for (const ObservationPart& part : set.parts) {
     const auto& columns = part.nuisance_columns;
     of_noise.insert(of_noise.end(), columns.end() - part.observation->nuisances_of_noise(),
                     columns.end());
   }
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::ssize(of_noise), unknowns.total());
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    const Eigen::Index column = of_noise[as_size(row)];
+  MatrixXd rows = MatrixXd::Zero(std::ssize(of_noise), unknowns.total());
+  for (Index row = 0; row < rows.rows(); ++row) {
+    const Index column = of_noise[as_size(row)];
     rows(row, column) = 1.0 / set.stated_sigma[column];
     precision[column] = 0.0;
   }
-  if (!of_noise.empty()) problem.add_rows(rows, Eigen::VectorXd::Zero(rows.rows()));
+  if (!of_noise.empty()) problem.add_rows(rows, VectorXd::Zero(rows.rows()));
 
-  const Eigen::Index parameters = set.parameters();
+  const Index parameters = set.parameters();
   auto of_machine = problem.prior_precision.topLeftCorner(parameters, parameters);
   // Zero if the mechanism starts at the stated values.
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(parameters);
-  for (Eigen::Index i = 0; i < parameters; ++i) {
+  VectorXd pull = VectorXd::Zero(parameters);
+  for (Index i = 0; i < parameters; ++i) {
     const auto& stated = set.mechanism->parameters()[as_size(i)].stated;
     if (stated) pull[i] = of_machine(i, i) * (*stated - set.mechanism->values()[i]);
   }
-  for (Eigen::Index i = 0; i < joint.sure_design().rows(); ++i) {
-    const Eigen::RowVectorXd row = joint.sure_design().row(i).head(parameters);
+  for (Index i = 0; i < joint.sure_design().rows(); ++i) {
+    const RowVectorXd row = joint.sure_design().row(i).head(parameters);
     of_machine += row.transpose() * row;
     pull += row.transpose() * joint.sure_response()[i];
   }
   problem.prior_mean.head(parameters) = linear::PivotedCholesky(of_machine).solve(pull);
 }
 
-inline void add_surface_prior(const JointProblem& joint, const Eigen::VectorXd& weights,
+inline void add_surface_prior(const JointProblem& joint, const VectorXd& weights,
                               interp::PenalisedProblem& problem) {
   const Unknowns& unknowns = joint.unknowns();
   const ObservedSubspace& observed = *joint.observed();
@@ -96,7 +95,7 @@ inline void add_surface_prior(const JointProblem& joint, const Eigen::VectorXd& 
 
 /// With a weight for each unit; 0 rejects it.
 [[nodiscard]] inline interp::PenalisedProblem weighted(const JointProblem& joint,
-                                                       const Eigen::VectorXd& weights) {
+                                                       const VectorXd& weights) {
   interp::PenalisedProblem problem(joint.unknowns().total());
   problem.noise = joint.input().noise;
   add_weighted_rows(joint, weights, problem);

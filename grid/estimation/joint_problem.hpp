@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
@@ -30,8 +30,8 @@ namespace chaintrue::grid::estimation {
 
 /// The iteration's state.
 struct State {
-  Eigen::VectorXd settings;  ///< deviations of the machine's and the sheets'
-  ResidualSurface surface;   ///< with the scales
+  VectorXd settings;        ///< deviations of the machine's and the sheets'
+  ResidualSurface surface;  ///< with the scales
 };
 
 class JointProblem {
@@ -56,9 +56,8 @@ class JointProblem {
   }
 
   State stated() const {
-    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(basis_.size());
-    return {Eigen::VectorXd::Zero(set_.setting_columns()),
-            {basis_, {0.0, 0.0}, {nothing, nothing}}};
+    const VectorXd nothing = VectorXd::Zero(basis_.size());
+    return {VectorXd::Zero(set_.setting_columns()), {basis_, {0.0, 0.0}, {nothing, nothing}}};
   }
 
   [[nodiscard]] EstimationFailure unreachable(const UnreachablePlace& failure) const {
@@ -109,18 +108,18 @@ class JointProblem {
   const ObservationSet& set() const { return set_; }
   const Unknowns& unknowns() const { return unknowns_; }
   /// Number of a map's settings, the first unknowns: parameters, and those of the first sheet.
-  Eigen::Index settings() const {
+  Index settings() const {
     return set_.parts.front().sheet ? ObservationSet::sheet_column(1) : set_.parameters();
   }
   /// The mechanism and a sheet for deviations from what was stated.
-  std::shared_ptr<const model::Mechanism> mechanism_at(const Eigen::VectorXd& deviations) const {
+  std::shared_ptr<const model::Mechanism> mechanism_at(const VectorXd& deviations) const {
     return set_.mechanism->with_values(set_.mechanism->values() +
                                        deviations.head(set_.parameters()));
   }
-  model::SheetPlacement sheet_at(const Eigen::VectorXd& deviations, std::size_t observation) const {
+  model::SheetPlacement sheet_at(const VectorXd& deviations, std::size_t observation) const {
     const auto& sheet = set_.parts[observation].sheet;
     if (!sheet) return {};
-    const Eigen::Vector3d at = deviations.segment<3>(ObservationSet::sheet_column(*sheet));
+    const Vector3d at = deviations.segment<3>(ObservationSet::sheet_column(*sheet));
     return {at.x(), at.y(), at.z()};
   }
 
@@ -131,20 +130,20 @@ class JointProblem {
   bool places_move() const { return places_move_; }
   /// Units that may be rejected, and their whitened rows by all unknowns.
   const std::vector<SystemUnit>& units() const { return units_; }
-  const Eigen::MatrixXd& design() const { return design_; }
-  const Eigen::VectorXd& response() const { return response_; }
+  const MatrixXd& design() const { return design_; }
+  const VectorXd& response() const { return response_; }
   /// Rows of readings that cannot be outliers.
-  const Eigen::MatrixXd& sure_design() const { return sure_design_; }
-  const Eigen::VectorXd& sure_response() const { return sure_response_; }
+  const MatrixXd& sure_design() const { return sure_design_; }
+  const VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
-  const std::vector<Eigen::Index>& rejected(std::size_t unit) const {
-    static const std::vector<Eigen::Index> kNone;
+  const std::vector<Index>& rejected(std::size_t unit) const {
+    static const std::vector<Index> kNone;
     return rejected_.empty() ? kNone : rejected_.at(unit);
   }
   const RejectedReadings& rejected() const { return rejected_; }
   /// Counted rows minus the fit's effective parameters.
   double dof(const interp::PenalisedFit& fit) const {
-    Eigen::Index rows = 0;
+    Index rows = 0;
     for (std::size_t u = 0; u < units_.size(); ++u)
       rows += without_readings(units_[u], rejected(u)).cols();
     return as_double(rows) - fit.edf;
@@ -158,24 +157,24 @@ class JointProblem {
   }
 
   /// All unknowns of a fit, including the free directions, and their covariance.
-  Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const {
-    Eigen::VectorXd all = fit.coefficients;
+  VectorXd coefficients(const interp::PenalisedFit& fit) const {
+    VectorXd all = fit.coefficients;
     if (!free_.columns.empty()) {
-      const Eigen::VectorXd free = free_.constant + free_.following * all;
+      const VectorXd free = free_.constant + free_.following * all;
       all(free_.columns) = free;
     }
     return all;
   }
-  Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const {
+  MatrixXd covariance(const interp::PenalisedFit& fit) const {
     if (free_.columns.empty()) return fit.corrected_covariance;
-    Eigen::MatrixXd follows = Eigen::MatrixXd::Identity(unknowns_.total(), unknowns_.total());
+    MatrixXd follows = MatrixXd::Identity(unknowns_.total(), unknowns_.total());
     follows(free_.columns, Eigen::all) = free_.following;
     return follows * fit.corrected_covariance * follows.transpose();
   }
 
   /// The state that a fit of the problem leads to.
   State state_of(const interp::PenalisedFit& fit) const {
-    const Eigen::VectorXd all = coefficients(fit);
+    const VectorXd all = coefficients(fit);
     State state = stated();
     state.settings = all.head(set_.setting_columns());
     for (const model::Side side : model::kSides) {
@@ -229,23 +228,22 @@ class JointProblem {
   }
 
   /// e f + s at the state.
-  Eigen::Vector2d correction_at(std::size_t place, const SystemPlace& at,
-                                const State& state) const {
+  Vector2d correction_at(std::size_t place, const SystemPlace& at, const State& state) const {
     const model::ChainLengths own = at.state.reading.lengths;
     const model::ChainLengths corrected =
-        state.surface.apply(surface_marks_[place], own, Eigen::Matrix2d::Zero()).lengths;
+        state.surface.apply(surface_marks_[place], own, Matrix2d::Zero()).lengths;
     return difference(corrected, own);
   }
 
   void fill_design(const LinearisedSystem& system, const State& state) {
-    Eigen::MatrixXd design = Eigen::MatrixXd::Zero(system.response.size(), unknowns_.total());
-    Eigen::VectorXd response = system.response;
+    MatrixXd design = MatrixXd::Zero(system.response.size(), unknowns_.total());
+    VectorXd response = system.response;
     design.leftCols(unknowns_.of_set) = system.by_setting;
-    std::vector<Eigen::Index> rows;
-    std::vector<Eigen::Index> certain_rows;
-    const auto take = [&](const SystemUnit& unit, std::vector<Eigen::Index>& list) {
+    std::vector<Index> rows;
+    std::vector<Index> certain_rows;
+    const auto take = [&](const SystemUnit& unit, std::vector<Index>& list) {
       add_chain_columns(system, unit, state, design, response);
-      for (Eigen::Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
+      for (Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
     };
     units_ = system.units;
     for (SystemUnit& unit : units_) {
@@ -276,11 +274,11 @@ class JointProblem {
 
   /// The scales' and the surface's columns of a unit.
   void add_chain_columns(const LinearisedSystem& system, const SystemUnit& unit, const State& state,
-                         Eigen::MatrixXd& design, Eigen::VectorXd& response) const {
+                         MatrixXd& design, VectorXd& response) const {
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
       for (const model::Side side : model::kSides) {
-        const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
+        const VectorXd by_chain = place.by_chain.col(row_of(side));
         add_chain(place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
       }
       if (!is_linear_in_correction(*input_.observations[unit.observation]) || input_.fixed_weights)
@@ -290,10 +288,10 @@ class JointProblem {
   }
 
   /// d(corrected lengths at a mark)/d(unknowns), 2 x total.
-  Eigen::MatrixXd lengths_by_unknown(std::size_t place, const SystemPlace& at,
-                                     const ObservedFrom& from) const {
+  MatrixXd lengths_by_unknown(std::size_t place, const SystemPlace& at,
+                              const ObservedFrom& from) const {
     const ObservationPart& part = set_.parts[at.observation];
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_.total());
+    MatrixXd rows = MatrixXd::Zero(2, unknowns_.total());
     rows(Eigen::all, set_.columns_of(part)) =
         at.state.by_length.asDiagonal() *
         observation::lengths_by_setting(
@@ -318,18 +316,18 @@ class JointProblem {
         places.free_rows.push_back(as_index(i));
         places.free_columns.push_back(ObservationSet::sheet_column(*part.sheet) + as_index(i));
       }
-      const Eigen::Index rows = 2 * std::ssize(part.observation->places());
-      places.by_unknown = Eigen::MatrixXd::Zero(rows, unknowns_.total());
-      places.moved = Eigen::VectorXd::Zero(rows);
+      const Index rows = 2 * std::ssize(part.observation->places());
+      places.by_unknown = MatrixXd::Zero(rows, unknowns_.total());
+      places.moved = VectorXd::Zero(rows);
       for (std::size_t p = 0; p < system.places.size(); ++p) {
         const SystemPlace& at = system.places[p];
         if (at.observation != k) continue;
         places.commanded.push_back(part.observation->places()[at.place].mark);
         places.marks.push_back(at.state.mark);
         if (places.free_columns.empty()) continue;
-        const Eigen::Matrix2d to_mark = -at.state.by_mark.inverse();
+        const Matrix2d to_mark = -at.state.by_mark.inverse();
         const auto row = 2 * as_index(at.place);
-        const Eigen::MatrixXd lengths = lengths_by_unknown(p, at, from[k]);
+        const MatrixXd lengths = lengths_by_unknown(p, at, from[k]);
         places.by_unknown.middleRows<2>(row) = to_mark * lengths;
         places.moved.segment<2>(row) =
             to_mark * (lengths(Eigen::all, set_.columns_of(part)) * from[k].settings +
@@ -338,7 +336,7 @@ class JointProblem {
       laid_marks_.push_back(free_.add(places));
     }
     if (free_.columns.empty()) return;
-    const Eigen::MatrixXd by_free = design_(Eigen::all, free_.columns);
+    const MatrixXd by_free = design_(Eigen::all, free_.columns);
     response_ -= by_free * free_.constant;
     design_ += by_free * free_.following;
     design_(Eigen::all, free_.columns).setZero();
@@ -355,11 +353,11 @@ class JointProblem {
   std::vector<model::MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
   std::vector<std::vector<model::MarkPoint>> laid_marks_;
   std::vector<SystemUnit> units_;
-  Eigen::MatrixXd design_;
-  Eigen::VectorXd response_;
+  MatrixXd design_;
+  VectorXd response_;
   std::optional<LocalDesign> local_;
-  Eigen::MatrixXd sure_design_;
-  Eigen::VectorXd sure_response_;
+  MatrixXd sure_design_;
+  VectorXd sure_response_;
   FreeDirections free_;
 };
 

@@ -11,13 +11,13 @@
 /// The distance is sqrt(r_out' (cov r_out)^-1 r_out).
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/joint_priors.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -26,8 +26,7 @@ namespace chaintrue::grid::estimation {
 /// A fit of a problem with these weights. All must outlive this.
 class LeftOut {
  public:
-  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit,
-          const Eigen::VectorXd& weights)
+  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights)
       : problem_(problem), fit_(fit), weights_(weights) {}
   /// Call first if all units are needed: X C X' of all takes a fraction of the time.
   void prepare_units() {
@@ -50,8 +49,8 @@ class LeftOut {
   }
 
   struct Conditioned {
-    Eigen::VectorXd residual;
-    Eigen::MatrixXd covariance;
+    VectorXd residual;
+    MatrixXd covariance;
   };
   /// Residual and covariance of a unit. If the unit nearly determines its own prediction, I - w X C
   /// X' / s^2 is rounding: the rest is then fitted again with the smoothing of the whole.
@@ -62,7 +61,7 @@ class LeftOut {
         interp::held_out_residual(residual_of(unit), weights_[at] * spread_of(unit), fit_.sigma2);
     if (!by_formula) {
       if (const auto rest = fit_without({unit})) {
-        const Eigen::MatrixXd rows = rows_of(unit);
+        const MatrixXd rows = rows_of(unit);
         Conditioned conditioned{response_of(unit) - rows * rest->coefficients,
                                 linear::carried(rows, rest->covariance)};
         conditioned.covariance.diagonal().array() += fit_.sigma2;
@@ -73,9 +72,9 @@ class LeftOut {
   }
 
   /// The whitened left-out residual of a unit. Rejected readings are not in the fit.
-  Eigen::VectorXd residual(std::size_t unit) const {
+  VectorXd residual(std::size_t unit) const {
     const double weight = weights_[as_index(unit)];
-    Eigen::VectorXd residual = residual_of(unit);
+    VectorXd residual = residual_of(unit);
     if (weight == 0.0) return residual;
     const auto held = interp::held_out_residual(residual, weight * spread_of(unit), fit_.sigma2);
     return held ? *held : residual;
@@ -83,29 +82,29 @@ class LeftOut {
 
   /// Those of a group of units with all of them left out. \throws std::logic_error before
   /// prepare_all().
-  std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const {
+  std::vector<VectorXd> residuals(const UnitGroup& group) const {
     if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
-    std::vector<Eigen::Index> rows;
+    std::vector<Index> rows;
     std::vector<double> roots;
     for (const std::size_t unit : group) {
       const double weight = weights_[as_index(unit)];
       if (weight == 0.0) continue;
       const SystemUnit& own = problem_.units()[unit];
-      for (Eigen::Index i = 0; i < own.rows; ++i) {
+      for (Index i = 0; i < own.rows; ++i) {
         rows.push_back(own.first_row + i);
         roots.push_back(std::sqrt(weight));
       }
     }
-    std::vector<Eigen::VectorXd> residuals;
+    std::vector<VectorXd> residuals;
     if (rows.empty()) {
       for (const std::size_t unit : group) residuals.push_back(residual_of(unit));
       return residuals;
     }
     const auto count = std::ssize(rows);
-    const Eigen::Map<const Eigen::VectorXd> root(roots.data(), count);
-    Eigen::VectorXd residual(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Index row = rows[as_size(i)];
+    const Eigen::Map<const VectorXd> root(roots.data(), count);
+    VectorXd residual(count);
+    for (Index i = 0; i < count; ++i) {
+      const Index row = rows[as_size(i)];
       residual[i] =
           root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
     }
@@ -118,11 +117,11 @@ class LeftOut {
         return residuals;
       }
     }
-    Eigen::Index at = 0;
+    Index at = 0;
     for (const std::size_t unit : group) {
       const double weight = weights_[as_index(unit)];
       if (held && weight > 0.0) {
-        const Eigen::Index own = problem_.units()[unit].rows;
+        const Index own = problem_.units()[unit].rows;
         residuals.emplace_back(held->segment(at, own) / std::sqrt(weight));
         at += own;
       } else {
@@ -133,11 +132,10 @@ class LeftOut {
   }
 
   /// (1), whitened, the unit's noise at its full weight.
-  Eigen::MatrixXd covariance(std::size_t unit) const {
+  MatrixXd covariance(std::size_t unit) const {
     const double weight = weights_[as_index(unit)];
-    Eigen::MatrixXd spread = spread_of(unit);
-    const Eigen::MatrixXd noise =
-        fit_.sigma2 * Eigen::MatrixXd::Identity(spread.rows(), spread.rows());
+    MatrixXd spread = spread_of(unit);
+    const MatrixXd noise = fit_.sigma2 * MatrixXd::Identity(spread.rows(), spread.rows());
     if (weight > 0.0) {
       const linear::Cholesky kept(noise - weight * spread);
       if (kept.is_positive_definite()) spread = fit_.sigma2 * kept.solve(spread);
@@ -146,29 +144,29 @@ class LeftOut {
   }
 
   double distance(std::size_t unit) const {
-    const Eigen::VectorXd residual = this->residual(unit);
+    const VectorXd residual = this->residual(unit);
     return std::sqrt(residual.dot(linear::PivotedCholesky(covariance(unit)).solve(residual)));
   }
 
  private:
-  Eigen::MatrixXd rows_of(std::size_t unit) const {
+  MatrixXd rows_of(std::size_t unit) const {
     const SystemUnit& own = problem_.units()[unit];
     return problem_.design().middleRows(own.first_row, own.rows);
   }
 
   /// The fit of the rest, with the smoothing of the whole; empty if there is none.
   std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const {
-    Eigen::VectorXd without = weights_;
+    VectorXd without = weights_;
     for (const std::size_t unit : group) without[as_index(unit)] = 0.0;
     auto rest = interp::fit_with_smoothing(weighted(problem_, without), fit_.lambda, fit_.sigma2);
     return rest ? std::optional(*std::move(rest)) : std::nullopt;
   }
 
   /// X C X'.
-  Eigen::MatrixXd spread_of(std::size_t unit) const {
+  MatrixXd spread_of(std::size_t unit) const {
     if (!spreads_.empty()) return spreads_[unit];
     if (by_root_.size() == 0) {
-      const Eigen::MatrixXd design = rows_of(unit);
+      const MatrixXd design = rows_of(unit);
       return linear::carried(design, fit_.covariance);
     }
     const SystemUnit& own = problem_.units()[unit];
@@ -176,26 +174,26 @@ class LeftOut {
     return root.lazyProduct(root.transpose());
   }
 
-  Eigen::VectorXd residual_of(std::size_t unit) const {
+  VectorXd residual_of(std::size_t unit) const {
     if (residuals_.size() > 0) return problem_.units()[unit].segment(residuals_);
     return response_of(unit) - rows_of(unit) * fit_.coefficients;
   }
 
-  Eigen::VectorXd response_of(std::size_t unit) const {
+  VectorXd response_of(std::size_t unit) const {
     return problem_.units()[unit].segment(problem_.response());
   }
 
   const JointProblem& problem_;
   const interp::PenalisedFit& fit_;
-  const Eigen::VectorXd& weights_;
-  std::vector<Eigen::MatrixXd> spreads_;  ///< X C X' of each unit, where the design is local
-  Eigen::VectorXd residuals_;             ///< there, of all rows
-  Eigen::MatrixXd by_root_;  ///< X R of all units, C = R R'; empty before prepare_all()
+  const VectorXd& weights_;
+  std::vector<MatrixXd> spreads_;  ///< X C X' of each unit, where the design is local
+  VectorXd residuals_;             ///< there, of all rows
+  MatrixXd by_root_;               ///< X R of all units, C = R R'; empty before prepare_all()
 };
 
 /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
 /// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
-inline double chi(Eigen::Index n, double z) {
+inline double chi(Index n, double z) {
   const double part = 2.0 / (9.0 * as_double(n));
   return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
 }
@@ -207,7 +205,7 @@ struct UnitRule {
   bool worst_first;  ///< one at a time, against the others' prediction and noise
 };
 
-inline UnitRule rule_of(Eigen::Index rows) {
+inline UnitRule rule_of(Index rows) {
   if (rows == 1) return {1.96, kBadDistanceSigmas, true};
   if (rows == 2) return {2.4477, kBadPointDistance, false};
   // The same probabilities as for two rows: 5 % and 4e-5.
@@ -222,18 +220,17 @@ struct Shift : ReadingShift {
 inline std::vector<Shift> shifts(const JointProblem& problem, const interp::PenalisedFit& fit,
                                  bool of_rejected) {
   std::vector<Shift> all;
-  const Eigen::VectorXd residual = problem.response() - problem.design() * fit.coefficients;
+  const VectorXd residual = problem.response() - problem.design() * fit.coefficients;
   const FittedRows rows{problem.design(), residual, fit, problem.dof(fit)};
   for (std::size_t u = 0; u < problem.units().size(); ++u) {
     const SystemUnit& unit = problem.units()[u];
-    const std::vector<Eigen::Index>& rejected = problem.rejected(u);
-    std::vector<Eigen::Index> readings = rejected;
+    const std::vector<Index>& rejected = problem.rejected(u);
+    std::vector<Index> readings = rejected;
     if (!of_rejected) {
-      readings = numbers_below<Eigen::Index>(unit.by_reading.cols());
-      std::erase_if(readings, [&](Eigen::Index i) { return contains(rejected, i); });
+      readings = numbers_below<Index>(unit.by_reading.cols());
+      std::erase_if(readings, [&](Index i) { return contains(rejected, i); });
     }
-    for (const Eigen::Index i : readings)
-      all.push_back({shift_of(rows, unit, rejected, i), {u, i}});
+    for (const Index i : readings) all.push_back({shift_of(rows, unit, rejected, i), {u, i}});
   }
   return all;
 }

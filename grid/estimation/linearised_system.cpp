@@ -21,16 +21,15 @@ void add_places(const ObservationSet& set, std::size_t number, const Linearisati
 
 /// `predicted` is f.
 void add_units(const ObservationSet& set, std::size_t number, const Linearisation& line,
-               const Eigen::VectorXd& predicted, const Eigen::VectorXd& settings,
-               LinearisedSystem& system) {
+               const VectorXd& predicted, const VectorXd& settings, LinearisedSystem& system) {
   const ObservationPart& part = set.parts[number];
   const Observation& observation = *part.observation;
   const auto columns = set.columns_of(part);
   for (std::size_t u = 0; u < line.units.size(); ++u) {
     const observation::Unit& rows = observation.units()[u];
     const auto there = Eigen::seqN(rows.first_row, rows.rows);
-    const Eigen::VectorXd residual = observation.measured()(there) - predicted(there);
-    const Eigen::MatrixXd by_setting = line.by_setting(there, Eigen::all);
+    const VectorXd residual = observation.measured()(there) - predicted(there);
+    const MatrixXd by_setting = line.by_setting(there, Eigen::all);
     SystemUnit unit;
     unit.observation = number;
     unit.unit = u;
@@ -53,7 +52,7 @@ void add_units(const ObservationSet& set, std::size_t number, const Linearisatio
     if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
     const bool may_be_outlier = observation.may_be_outlier();
     auto& units = may_be_outlier ? system.units : system.certain;
-    for (Eigen::Index k = 0; k < unit.rows; ++k) {
+    for (Index k = 0; k < unit.rows; ++k) {
       system.unit_of_row[as_size(unit.first_row + k)] =
           may_be_outlier ? static_cast<int>(units.size()) : -1;
     }
@@ -63,14 +62,14 @@ void add_units(const ObservationSet& set, std::size_t number, const Linearisatio
 
 }  // namespace
 
-Eigen::Vector2d SystemUnit::whitened(const Eigen::VectorXd& all) const {
-  Eigen::Vector2d result = Eigen::Vector2d::Zero();
+Vector2d SystemUnit::whitened(const VectorXd& all) const {
+  Vector2d result = Vector2d::Zero();
   result.head(rows) = whitening * segment(all);
   return result;
 }
 
-Eigen::Vector2d SystemUnit::unwhitened(const Eigen::VectorXd& all) const {
-  Eigen::Vector2d result = Eigen::Vector2d::Zero();
+Vector2d SystemUnit::unwhitened(const VectorXd& all) const {
+  Vector2d result = Vector2d::Zero();
   result.head(rows) = whitening.inverse() * segment(all);
   return result;
 }
@@ -81,7 +80,7 @@ tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet&
   LinearisedSystem system;
   system.e.resize(set.rows);
   system.response.resize(set.rows);
-  system.by_setting = Eigen::MatrixXd::Zero(set.rows, set.stated_value.size());
+  system.by_setting = MatrixXd::Zero(set.rows, set.stated_value.size());
   system.nuisances = set.nuisances();
   system.unit_of_row.resize(as_size(set.rows));
   for (std::size_t k = 0; k < set.parts.size(); ++k) {
@@ -101,10 +100,10 @@ tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet&
   return system;
 }
 
-Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all) {
+VectorXd whitened(const LinearisedSystem& system, VectorXd all) {
   for (const auto* units : {&system.units, &system.certain}) {
     for (const SystemUnit& unit : *units) {
-      const Eigen::Vector2d own = unit.whitened(all);
+      const Vector2d own = unit.whitened(all);
       all.segment(unit.first_row, unit.rows) = own.head(unit.rows);
     }
   }

@@ -16,11 +16,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/observation_set.hpp"
 #include "grid/estimation/unit_whitening.hpp"
 #include "model/machine.hpp"
@@ -31,7 +31,7 @@ namespace chaintrue::grid::estimation {
 /// ones (the machine's, then its sheet's).
 struct ObservedFrom {
   observation::View view;
-  Eigen::VectorXd settings;
+  VectorXd settings;
 };
 
 /// How f is computed.
@@ -44,20 +44,20 @@ enum class Prediction {
 struct SystemUnit {
   std::size_t observation = 0;
   std::size_t unit = 0;  ///< into the observation's
-  Eigen::Index first_row = 0;
-  Eigen::Index rows = 1;
+  Index first_row = 0;
+  Index rows = 1;
   UnitMatrix whitening = UnitMatrix::Identity(1, 1);  ///< W_u
   bool reads_chains = false;                          ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
   /// The effect of a millimetre of each reading on the whitened rows; empty: the unit is an outlier
   /// as a whole.
-  Eigen::MatrixXd by_reading{};
+  MatrixXd by_reading{};
 
   /// From the readings' units to those of noise, and back: the rows of this unit, at most two.
-  Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;
-  Eigen::Vector2d unwhitened(const Eigen::VectorXd& all) const;
-  auto segment(const Eigen::VectorXd& all) const { return all.segment(first_row, rows); }
+  Vector2d whitened(const VectorXd& all) const;
+  Vector2d unwhitened(const VectorXd& all) const;
+  auto segment(const VectorXd& all) const { return all.segment(first_row, rows); }
   /// One sigma of a unit of one reading.
   double sigma() const { return 1.0 / whitening(0, 0); }
 };
@@ -79,10 +79,10 @@ struct SystemPlace {
 
 /// (1), n rows.
 struct LinearisedSystem {
-  Eigen::VectorXd e;                ///< W (y - f)
-  Eigen::VectorXd response;         ///< W (y - f + A (theta_0 - stated))
-  Eigen::MatrixXd by_setting;       ///< W (A, B), n x q, columns as the observation set has them
-  Eigen::Index nuisances = 0;       ///< the last of these q columns
+  VectorXd e;                       ///< W (y - f)
+  VectorXd response;                ///< W (y - f + A (theta_0 - stated))
+  MatrixXd by_setting;              ///< W (A, B), n x q, columns as the observation set has them
+  Index nuisances = 0;              ///< the last of these q columns
   std::vector<SystemUnit> units;    ///< numbered as in the observation set
   std::vector<SystemUnit> certain;  ///< rows of readings that cannot be outliers
   std::vector<int> unit_of_row;     ///< n; -1: a row of those
@@ -102,7 +102,7 @@ using UnreachablePlace = Failure<model::MechanismReason, PlaceOfObservation>;
     Prediction prediction = Prediction::place_by_place);
 
 /// All n rows, from the readings' units to those of noise.
-Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all);
+VectorXd whitened(const LinearisedSystem& system, VectorXd all);
 
 /// The nuisances' columns.
 inline auto nuisance_columns(const LinearisedSystem& system) {

@@ -11,12 +11,12 @@
 /// costs n 50^2 + q^3 in place of n q^2, for n rows and q unknowns.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
 #include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/unknowns.hpp"
@@ -29,17 +29,17 @@ namespace chaintrue::grid::estimation {
 class LocalDesign {
  public:
   /// `marks` are the places of all units, in the surface's frame.
-  LocalDesign(const Eigen::MatrixXd& design, const std::vector<SystemUnit>& units,
+  LocalDesign(const MatrixXd& design, const std::vector<SystemUnit>& units,
               const Unknowns& unknowns, const ObservedSubspace& observed,
               const interp::BsplineBasis& basis, const std::vector<model::MarkPoint>& marks)
       : units_(units), rows_(as_size(design.rows())) {
-    const Eigen::Index penalised = observed.penalised.cols();
-    const Eigen::Index first_bend = unknowns.first_penalised_of(model::Side::left);
-    const Eigen::Index plain = unknowns.total() - 2 * penalised;
+    const Index penalised = observed.penalised.cols();
+    const Index first_bend = unknowns.first_penalised_of(model::Side::left);
+    const Index plain = unknowns.total() - 2 * penalised;
     const auto splines = [&](model::Side side) { return plain + row_of(side) * basis.size(); };
-    to_unknowns_ = Eigen::MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
-    std::vector<Eigen::Index> columns;
-    for (Eigen::Index k = 0; k < unknowns.total(); ++k) {
+    to_unknowns_ = MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
+    std::vector<Index> columns;
+    for (Index k = 0; k < unknowns.total(); ++k) {
       if (k >= first_bend && k < first_bend + 2 * penalised) continue;
       to_unknowns_(std::ssize(columns), k) = 1.0;
       columns.push_back(k);
@@ -48,16 +48,16 @@ class LocalDesign {
       to_unknowns_.block(splines(side), unknowns.first_penalised_of(side), basis.size(),
                          penalised) = observed.penalised;
     }
-    for (Eigen::Index k = 0; k < plain; ++k) {
+    for (Index k = 0; k < plain; ++k) {
       const auto column = design.col(columns[as_size(k)]);
-      for (Eigen::Index row = 0; row < design.rows(); ++row) {
+      for (Index row = 0; row < design.rows(); ++row) {
         if (column[row] != 0.0) rows_[as_size(row)].emplace_back(k, column[row]);
       }
     }
     for (const SystemUnit& unit : units) {
       for (const observation::PlaceColumns& place : unit.places) {
         const interp::BasisSupport at = basis.at(marks[place.place].x_mm, marks[place.place].y_mm);
-        for (Eigen::Index i = 0; i < unit.rows; ++i) {
+        for (Index i = 0; i < unit.rows; ++i) {
           auto& row = rows_[as_size(unit.first_row + i)];
           for (const model::Side side : model::kSides) {
             const double by_chain = place.by_chain(i, row_of(side));
@@ -70,20 +70,20 @@ class LocalDesign {
   }
 
   /// Worth its cost of q^3 with more rows than this per unknown.
-  static constexpr Eigen::Index kRowsForEachUnknown = 4;
+  static constexpr Index kRowsForEachUnknown = 4;
 
   /// Adds the rows of positive weight by [X y]' w [X y]; a weight for each unit.
-  void add_rows(const Eigen::VectorXd& response, const Eigen::VectorXd& weights,
+  void add_rows(const VectorXd& response, const VectorXd& weights,
                 interp::PenalisedProblem& problem) const {
     const auto [size, unknowns] = std::pair(to_unknowns_.rows(), to_unknowns_.cols());
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size + 1, size + 1);
-    Eigen::Index count = 0;
+    MatrixXd gram = MatrixXd::Zero(size + 1, size + 1);
+    Index count = 0;
     for (std::size_t u = 0; u < units_.size(); ++u) {
       const double weight = weights[as_index(u)];
       if (weight == 0.0) continue;
       count += units_[u].rows;
-      for (Eigen::Index i = 0; i < units_[u].rows; ++i) {
-        const Eigen::Index at = units_[u].first_row + i;
+      for (Index i = 0; i < units_[u].rows; ++i) {
+        const Index at = units_[u].first_row + i;
         std::vector<Entry> row = rows_[as_size(at)];
         row.emplace_back(size, response[at]);
         // Columns rise along a row except where two places meet: entries above the diagonal are added
@@ -99,21 +99,21 @@ class LocalDesign {
       }
     }
     gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-    Eigen::MatrixXd to_all = Eigen::MatrixXd::Zero(size + 1, unknowns + 1);
+    MatrixXd to_all = MatrixXd::Zero(size + 1, unknowns + 1);
     to_all.topLeftCorner(size, unknowns) = to_unknowns_;
     to_all(size, unknowns) = 1.0;
     problem.add_products(count, linear::carried(linear::transposed(to_all), gram));
   }
 
   /// X_u C X_u' of every unit.
-  std::vector<Eigen::MatrixXd> spreads(const Eigen::MatrixXd& covariance) const {
-    const Eigen::MatrixXd local = linear::carried(to_unknowns_, covariance);
-    std::vector<Eigen::MatrixXd> result;
+  std::vector<MatrixXd> spreads(const MatrixXd& covariance) const {
+    const MatrixXd local = linear::carried(to_unknowns_, covariance);
+    std::vector<MatrixXd> result;
     result.reserve(units_.size());
     for (const SystemUnit& unit : units_) {
-      Eigen::MatrixXd spread(unit.rows, unit.rows);
-      for (Eigen::Index i = 0; i < unit.rows; ++i) {
-        for (Eigen::Index j = 0; j <= i; ++j) {
+      MatrixXd spread(unit.rows, unit.rows);
+      for (Index i = 0; i < unit.rows; ++i) {
+        for (Index j = 0; j <= i; ++j) {
           double sum = 0.0;
           for (const auto& [a, left] : rows_[as_size(unit.first_row + j)]) {
             double part = 0.0;
@@ -130,11 +130,11 @@ class LocalDesign {
   }
 
  private:
-  using Entry = std::pair<Eigen::Index, double>;  ///< column of D, value
+  using Entry = std::pair<Index, double>;  ///< column of D, value
 
   const std::vector<SystemUnit>& units_;
   std::vector<std::vector<Entry>> rows_;  ///< of D
-  Eigen::MatrixXd to_unknowns_;           ///< M
+  MatrixXd to_unknowns_;                  ///< M
 };
 
 }  // namespace chaintrue::grid::estimation

@@ -31,8 +31,8 @@ void append(ObservationPart part, ObservationSet& set) {
 
 /// The columns of zeros and nuisances, and the stated values of all columns.
 void add_columns(ObservationSet& set) {
-  const Eigen::Index parameters = set.parameters();
-  Eigen::Index columns = parameters + 3 * as_index(set.sheets);
+  const Index parameters = set.parameters();
+  Index columns = parameters + 3 * as_index(set.sheets);
   bool is_first = true;
   for (ObservationPart& part : set.parts) {
     // Only for two chains: other mechanisms have no such zeros.
@@ -45,19 +45,18 @@ void add_columns(ObservationSet& set) {
     is_first = false;
   }
   for (ObservationPart& part : set.parts) {
-    for (Eigen::Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
+    for (Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
       part.nuisance_columns.push_back(columns++);
     }
   }
-  set.stated_value = Eigen::VectorXd::Zero(columns);
-  set.stated_sigma = Eigen::VectorXd::Zero(columns);
+  set.stated_value = VectorXd::Zero(columns);
+  set.stated_sigma = VectorXd::Zero(columns);
   set.stated_value.head(parameters) = set.mechanism->values();
-  for (Eigen::Index k = 0; k < parameters; ++k) {
+  for (Index k = 0; k < parameters; ++k) {
     set.stated_sigma(k) = set.mechanism->parameters()[as_size(k)].prior_sigma.value_or(kInfinity);
   }
   for (const ObservationPart& part : set.parts) {
-    for (const Eigen::Index column : part.zero_columns)
-      set.stated_sigma(column) = kSessionZeroSigmaMm;
+    for (const Index column : part.zero_columns) set.stated_sigma(column) = kSessionZeroSigmaMm;
     for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
       set.stated_sigma(part.nuisance_columns[q]) = part.observation->nuisance_sigma()(as_index(q));
     }
@@ -107,13 +106,13 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
     part.sheet = set.parts[one.in_place_of].sheet;
     part.zero_columns = set.parts[one.in_place_of].zero_columns;
     part.nuisance_columns = set.parts[one.in_place_of].nuisance_columns;
-    const Eigen::VectorXd& sigma = one.observation->nuisance_sigma();
+    const VectorXd& sigma = one.observation->nuisance_sigma();
     const auto known = std::ssize(part.nuisance_columns);
-    const Eigen::Index more = std::max<Eigen::Index>(sigma.size() - known, 0);
-    const Eigen::Index columns = other.stated_sigma.size();
+    const Index more = std::max<Index>(sigma.size() - known, 0);
+    const Index columns = other.stated_sigma.size();
     part.nuisance_columns.resize(as_size(std::min(known, sigma.size())));
-    for (Eigen::Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
-    other.stated_value.conservativeResizeLike(Eigen::VectorXd::Zero(columns + more));
+    for (Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
+    other.stated_value.conservativeResizeLike(VectorXd::Zero(columns + more));
     other.stated_sigma.conservativeResize(columns + more);
     other.stated_sigma.tail(more) = sigma.tail(more);
     part.observation = std::move(one.observation);
@@ -127,14 +126,14 @@ MachineState stated_state(const ObservationSet& set) {
           set.is_of_chains() ? nullptr : set.mechanism};
 }
 
-Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(set.stated_value.size());
+VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
+  VectorXd values = VectorXd::Zero(set.stated_value.size());
   // Sheets are laid under two chains alone (observation_set()).
   if (state.mechanism) {
     values.head(set.parameters()) = state.mechanism->values();
     return values;
   }
-  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
+  for (Index k = 0; k < kMachineSettingCount; ++k) {
     values(k) = model::stated_value(state.machine, set.settings[as_size(k)]);
   }
   for (std::size_t i = 0; i < set.sheets; ++i) {
@@ -145,18 +144,17 @@ Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& st
   return values;
 }
 
-MachineState with_settings(const ObservationSet& set, MachineState state,
-                           const Eigen::VectorXd& values) {
+MachineState with_settings(const ObservationSet& set, MachineState state, const VectorXd& values) {
   if (state.mechanism) {
     state.mechanism = state.mechanism->with_values(values.head(set.parameters()));
     return state;
   }
-  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
+  for (Index k = 0; k < kMachineSettingCount; ++k) {
     state.machine =
         model::with_setting(std::move(state.machine), set.settings[as_size(k)], values(k));
   }
   for (std::size_t i = 0; i < set.sheets; ++i) {
-    const Eigen::Index at = ObservationSet::sheet_column(i);
+    const Index at = ObservationSet::sheet_column(i);
     state.sheets[i] = {values(at), values(at + 1), values(at + 2)};
   }
   return state;
@@ -164,7 +162,7 @@ MachineState with_settings(const ObservationSet& set, MachineState state,
 
 tl::expected<MachineState, model::MachineProblem> moved_to(const ObservationSet& set,
                                                            MachineState state,
-                                                           const Eigen::VectorXd& values) {
+                                                           const VectorXd& values) {
   const std::string kind(set.mechanism->kind());
   try {
     state = with_settings(set, std::move(state), values);

@@ -18,12 +18,12 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
@@ -46,14 +46,14 @@ inline constexpr auto kMachineSettingCount = std::ssize(model::kMachineSettings)
 /// An observation's share of the rows, places, units and columns.
 struct ObservationPart {
   std::shared_ptr<const observation::Observation> observation;
-  Eigen::Index first_row = 0;
+  Index first_row = 0;
   std::size_t first_place = 0;
   std::size_t first_unit = 0;
-  std::optional<std::size_t> sheet;            ///< which of the set's; none: the bed's frame
-  std::vector<Eigen::Index> nuisance_columns;  ///< among all columns
+  std::optional<std::size_t> sheet;     ///< which of the set's; none: the bed's frame
+  std::vector<Index> nuisance_columns;  ///< among all columns
   /// Columns of the zeros of this session minus the machine's; empty for the session that defines
   /// the machine's.
-  std::vector<Eigen::Index> zero_columns{};
+  std::vector<Index> zero_columns{};
   bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
@@ -68,8 +68,8 @@ struct NumberedPlace {
 struct NumberedUnit {
   std::size_t part = 0;
   std::size_t index = 0;  ///< into the points, or the distances, of all files in their order
-  Eigen::Index first_row = 0;
-  Eigen::Index rows = 1;
+  Index first_row = 0;
+  Index rows = 1;
 };
 
 struct ObservationSet;
@@ -88,10 +88,9 @@ struct ObservationSet {
   std::vector<model::Setting> settings;
   std::size_t sheets = 0;
   std::size_t own_zeros = 0;  ///< sessions whose chain zeros are their own
-  Eigen::VectorXd
-      stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
-  Eigen::VectorXd stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
-  Eigen::Index rows = 0;
+  VectorXd stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
+  VectorXd stated_sigma;  ///< q, their sigmas, at least kKnownSigma; infinite: no prior
+  Index rows = 0;
   /// Degrees of freedom of the noise: the smallest number among all observations.
   double noise_dof = 15.0;
   bool noise_from_repeats = false;
@@ -99,10 +98,10 @@ struct ObservationSet {
   std::size_t fewest_units = 0;
 
   /// For the mechanism: the first columns.
-  Eigen::Index parameters() const { return mechanism->values().size(); }
+  Index parameters() const { return mechanism->values().size(); }
   /// For the mechanism's parameters and the sheets: the first columns.
-  Eigen::Index setting_columns() const { return parameters() + 3 * as_index(sheets); }
-  Eigen::Index nuisances() const {
+  Index setting_columns() const { return parameters() + 3 * as_index(sheets); }
+  Index nuisances() const {
     return stated_value.size() - setting_columns() - 2 * as_index(own_zeros);
   }
 
@@ -139,14 +138,14 @@ struct ObservationSet {
   }
 
   /// The first of the three columns of a sheet.
-  static Eigen::Index sheet_column(std::size_t sheet) {
+  static Index sheet_column(std::size_t sheet) {
     return kMachineSettingCount + as_index(model::kSheetSettings.size() * sheet);
   }
 
   /// Columns of an observation's own settings, as observation::columns_of() has them.
-  std::vector<Eigen::Index> columns_of(const ObservationPart& part) const {
-    std::vector<Eigen::Index> columns;
-    for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
+  std::vector<Index> columns_of(const ObservationPart& part) const {
+    std::vector<Index> columns;
+    for (Index k = 0; k < parameters(); ++k) columns.push_back(k);
     // Follow-up readings may be in the frame of a sheet that they do not depend on.
     const bool has_sheet = part.sheet && part.observation->sheet();
     for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
@@ -208,13 +207,14 @@ struct MachineState {
 };
 MachineState stated_state(const ObservationSet& set);
 /// Zeros of other sessions and nuisances are 0 in every state: their effect is linear.
-Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
+VectorXd setting_values(const ObservationSet& set, const MachineState& state);
 /// \throws std::invalid_argument for another mechanism than two chains that cannot have these values.
 [[nodiscard]] MachineState with_settings(const ObservationSet& set, MachineState state,
-                                         const Eigen::VectorXd& values);
+                                         const VectorXd& values);
 /// As above, or the reason why there is no such machine.
-[[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(
-    const ObservationSet& set, MachineState state, const Eigen::VectorXd& values);
+[[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(const ObservationSet& set,
+                                                                         MachineState state,
+                                                                         const VectorXd& values);
 
 /// Words for a unit.
 std::string name_of(const ObservationSet& set, std::size_t unit);

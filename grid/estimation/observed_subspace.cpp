@@ -9,13 +9,13 @@ namespace {
 
 /// R with R R' the pseudo-inverse of the penalty P. With Pi the projector on the polynomials and
 /// P + c Pi = L L', the inverse of L L' is the pseudo-inverse and Pi / c: R = (1 - Pi) L^-T.
-Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::MatrixXd& polynomials) {
-  const Eigen::Index size = penalty.rows();
-  const Eigen::MatrixXd orthonormal = linear::orthonormal_columns(polynomials);
+MatrixXd bending_root(const MatrixXd& penalty, const MatrixXd& polynomials) {
+  const Index size = penalty.rows();
+  const MatrixXd orthonormal = linear::orthonormal_columns(polynomials);
   const double scale = penalty.trace() / as_double(size);
-  Eigen::MatrixXd bent = penalty;
+  MatrixXd bent = penalty;
   linear::add_outer(bent, scale, orthonormal);
-  Eigen::MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();
+  MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();
   linear::add_product(root, -1.0, orthonormal,
                       linear::product(linear::transposed(orthonormal), root));
   return root;
@@ -27,14 +27,14 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bendin
                                    const std::vector<model::MarkPoint>& marks)
     : polynomials(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = std::ssize(marks);
-  const Eigen::Index size = basis.size();
-  const Eigen::MatrixXd penalty = basis.bending_penalty(bending_order);
+  const Index size = basis.size();
+  const MatrixXd penalty = basis.bending_penalty(bending_order);
   penalty_trace = penalty.trace();
-  const Eigen::MatrixXd root = bending_root(penalty, polynomials);
-  penalised_rows = Eigen::MatrixXd::Zero(points, size);
-  polynomial_rows = Eigen::MatrixXd::Zero(points, polynomials.cols());
-  squares = Eigen::VectorXd::Zero(points);
-  for (Eigen::Index i = 0; i < points; ++i) {
+  const MatrixXd root = bending_root(penalty, polynomials);
+  penalised_rows = MatrixXd::Zero(points, size);
+  polynomial_rows = MatrixXd::Zero(points, polynomials.cols());
+  squares = VectorXd::Zero(points);
+  for (Index i = 0; i < points; ++i) {
     const model::MarkPoint mark = marks[as_size(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
     for (std::size_t k = 0; k < support.index.size(); ++k) {
@@ -50,7 +50,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bendin
   }
   // The rows are T' Q': the columns of Q span what the points observe.
   const linear::Qr parts = linear::qr(penalised_rows.transpose());
-  const Eigen::MatrixXd turned = linear::product(root, parts.q);
+  const MatrixXd turned = linear::product(root, parts.q);
   penalised = turned.leftCols(points);
   null_space = turned.rightCols(size - points);
   penalised_rows = parts.r.transpose();

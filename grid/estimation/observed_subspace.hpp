@@ -18,9 +18,9 @@
 /// sections 2.2 and 6.3, for the two views of one prior.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "interp/bspline_basis.hpp"
 #include "model/coordinates.hpp"
 
@@ -30,13 +30,13 @@ struct ObservedSubspace {
   ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
                    const std::vector<model::MarkPoint>& marks);
 
-  Eigen::MatrixXd polynomials;      ///< F
-  Eigen::MatrixXd penalised;        ///< B
-  Eigen::MatrixXd null_space;       ///< B2; no columns where the points observe everything
-  Eigen::MatrixXd polynomial_rows;  ///< phi(q)' F, one row for each mark
-  Eigen::MatrixXd penalised_rows;   ///< phi(q)' B
-  Eigen::VectorXd squares;          ///< sum over the splines of phi(q)^2, for each mark
-  double penalty_trace = 0.0;       ///< of P
+  MatrixXd polynomials;        ///< F
+  MatrixXd penalised;          ///< B
+  MatrixXd null_space;         ///< B2; no columns where the points observe everything
+  MatrixXd polynomial_rows;    ///< phi(q)' F, one row for each mark
+  MatrixXd penalised_rows;     ///< phi(q)' B
+  VectorXd squares;            ///< sum over the splines of phi(q)^2, for each mark
+  double penalty_trace = 0.0;  ///< of P
 };
 
 }  // namespace chaintrue::grid

@@ -7,9 +7,9 @@ namespace chaintrue::grid::estimation {
 
 model::SheetPlacement fit_placement(const LinearisedAt& linearised,
                                     const std::optional<observation::SheetPrior>& prior) {
-  Eigen::Vector3d precision = Eigen::Vector3d::Zero();
+  Vector3d precision = Vector3d::Zero();
   if (prior) precision = prior->sigma().cwiseAbs2().cwiseInverse();
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  Vector3d at = Vector3d::Zero();
   constexpr int kSteps = 8;
   for (int step = 0; step < kSteps; ++step) {
     PlacementNormal sum;

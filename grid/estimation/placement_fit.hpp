@@ -12,10 +12,10 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 
+#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
@@ -24,12 +24,12 @@ namespace chaintrue::grid::estimation {
 /// Normal equations of the three unknowns.
 struct PlacementNormal {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Vector3d right = Vector3d::Zero();
 
   /// One reading of both chains: measured less predicted, d(predicted)/d(placement), and the inverse
   /// of its covariance.
-  void add(const Eigen::Vector2d& residual, const Eigen::Matrix<double, 2, 3>& by_placement,
-           const Eigen::Matrix2d& weight) {
+  void add(const Vector2d& residual, const Eigen::Matrix<double, 2, 3>& by_placement,
+           const Matrix2d& weight) {
     normal += by_placement.transpose() * weight * by_placement;
     right += by_placement.transpose() * weight * residual;
   }

@@ -23,25 +23,23 @@ double deleted_deviate(double r, double kept, double s2, double dof) {
   return normal_deviate(r / std::sqrt(left * kept), dof - 1.0);
 }
 
-Eigen::MatrixXd without_readings(const SystemUnit& unit,
-                                 const std::vector<Eigen::Index>& rejected) {
-  if (rejected.empty()) return Eigen::MatrixXd::Identity(unit.rows, unit.rows);
+MatrixXd without_readings(const SystemUnit& unit, const std::vector<Index>& rejected) {
+  if (rejected.empty()) return MatrixXd::Identity(unit.rows, unit.rows);
   return linear::range_of(unit.by_reading(Eigen::all, rejected)).rest;
 }
 
 ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit,
-                      const std::vector<Eigen::Index>& rejected, Eigen::Index reading) {
-  std::vector<Eigen::Index> others = rejected;
+                      const std::vector<Index>& rejected, Index reading) {
+  std::vector<Index> others = rejected;
   const bool counts = std::erase(others, reading) == 0;
-  const Eigen::MatrixXd basis = without_readings(unit, others);
-  const Eigen::VectorXd d = basis.transpose() * unit.by_reading.col(reading);
+  const MatrixXd basis = without_readings(unit, others);
+  const VectorXd d = basis.transpose() * unit.by_reading.col(reading);
   const double own = d.squaredNorm();
   ReadingShift shift;
   if (own <= kNoDirection * unit.by_reading.col(reading).squaredNorm()) return shift;
-  const Eigen::VectorXd along = basis * d;
+  const VectorXd along = basis * d;
   const double r = along.dot(rows.residual.segment(unit.first_row, unit.rows));
-  const Eigen::VectorXd by_unknown =
-      rows.design.middleRows(unit.first_row, unit.rows).transpose() * along;
+  const VectorXd by_unknown = rows.design.middleRows(unit.first_row, unit.rows).transpose() * along;
   const double spread = by_unknown.dot(rows.fit.covariance * by_unknown);
   const double s2 = rows.fit.sigma2;
   const double n = rows.dof;

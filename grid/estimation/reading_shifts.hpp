@@ -22,20 +22,19 @@
 /// within 0.02 of it from 4 degrees of freedom on.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::grid::estimation {
 
 /// For each unit, the readings that are rejected.
-using RejectedReadings = std::vector<std::vector<Eigen::Index>>;
+using RejectedReadings = std::vector<std::vector<Index>>;
 
 /// N of these readings of a unit: rows x what they leave.
-[[nodiscard]] Eigen::MatrixXd without_readings(const SystemUnit& unit,
-                                               const std::vector<Eigen::Index>& rejected);
+[[nodiscard]] MatrixXd without_readings(const SystemUnit& unit, const std::vector<Index>& rejected);
 
 /// If less than this share of its weight remains, no other reading determines it.
 inline constexpr double kOwnWord = 1e-6;
@@ -52,13 +51,13 @@ struct ReadingShift {
 
 /// A fit to the rows of a linearised system.
 struct FittedRows {
-  const Eigen::MatrixXd& design;
-  const Eigen::VectorXd& residual;
+  const MatrixXd& design;
+  const VectorXd& residual;
   const interp::PenalisedFit& fit;
   double dof = 0.0;  ///< n
 };
 
 ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit,
-                      const std::vector<Eigen::Index>& rejected, Eigen::Index reading);
+                      const std::vector<Index>& rejected, Index reading);
 
 }  // namespace chaintrue::grid::estimation

@@ -7,14 +7,14 @@ using model::Side;
 
 ResidualSurface::Corrected ResidualSurface::apply(model::MarkPoint mark,
                                                   model::ChainLengths lengths,
-                                                  const Eigen::Matrix2d& mark_jacobian) const {
+                                                  const Matrix2d& mark_jacobian) const {
   Corrected result;
   for (const Side side : model::kSides) {
-    const Eigen::Index row = row_of(side);
+    const Index row = row_of(side);
     const auto own = basis.evaluate(coefficients[side], mark.x_mm, mark.y_mm);
     result.lengths[side] = lengths[side] * (1.0 + scale[side]) + own.value;
     result.mark_jacobian.row(row) =
-        mark_jacobian.row(row) * (1.0 + scale[side]) + Eigen::RowVector2d(own.dx, own.dy);
+        mark_jacobian.row(row) * (1.0 + scale[side]) + RowVector2d(own.dx, own.dy);
   }
   return result;
 }

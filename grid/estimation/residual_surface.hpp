@@ -16,9 +16,8 @@
 /// Order of the coefficients: settings, e_left, e_right, s_left, s_right (FitColumns).
 #pragma once
 
-#include <Eigen/Core>
-
 #include "grid/chain_rows.hpp"
+#include "grid/eigen.hpp"
 #include "interp/bspline_basis.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/reading_model.hpp"
@@ -27,26 +26,26 @@ namespace chaintrue::grid {
 
 /// Where each group of unknowns begins.
 struct FitColumns {
-  Eigen::Index settings = 0;  ///< how many settings there are
-  Eigen::Index basis = 0;     ///< coefficients of one spline
-  Eigen::Index scale(model::Side side) const { return settings + row_of(side); }
-  Eigen::Index spline(model::Side side) const { return settings + 2 + row_of(side) * basis; }
-  Eigen::Index total() const { return settings + 2 + 2 * basis; }
+  Index settings = 0;  ///< how many settings there are
+  Index basis = 0;     ///< coefficients of one spline
+  Index scale(model::Side side) const { return settings + row_of(side); }
+  Index spline(model::Side side) const { return settings + 2 + row_of(side) * basis; }
+  Index total() const { return settings + 2 + 2 * basis; }
 };
 
 /// Immutable, thread safe.
 struct ResidualSurface {
   interp::BsplineBasis basis;
   model::PerSide<double> scale;
-  model::PerSide<Eigen::VectorXd> coefficients;
+  model::PerSide<VectorXd> coefficients;
 
   /// The corrected lengths and d(lengths)/d(mark), from the model's own at the same mark.
   struct Corrected {
     model::ChainLengths lengths;
-    Eigen::Matrix2d mark_jacobian;
+    Matrix2d mark_jacobian;
   };
   Corrected apply(model::MarkPoint mark, model::ChainLengths lengths,
-                  const Eigen::Matrix2d& mark_jacobian) const;
+                  const Matrix2d& mark_jacobian) const;
 };
 
 }  // namespace chaintrue::grid

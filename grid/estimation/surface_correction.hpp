@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "model/calibration/sheet_placement.hpp"
@@ -23,10 +24,10 @@ class SurfaceCorrection final : public observation::LengthCorrection {
       : surface_(surface), sheets_(Sheets{surface_sheet, own_sheet}) {}
 
   At at(model::MarkPoint mark, model::ChainLengths lengths,
-        const Eigen::Matrix2d& by_mark) const override {
-    const auto corrected = surface_.apply(to_surface(mark), lengths, Eigen::Matrix2d::Zero());
-    const Eigen::Vector2d by_length(1.0 + surface_.scale.left, 1.0 + surface_.scale.right);
-    Eigen::Matrix2d gradient = corrected.mark_jacobian;
+        const Matrix2d& by_mark) const override {
+    const auto corrected = surface_.apply(to_surface(mark), lengths, Matrix2d::Zero());
+    const Vector2d by_length(1.0 + surface_.scale.left, 1.0 + surface_.scale.right);
+    Matrix2d gradient = corrected.mark_jacobian;
     if (sheets_) gradient *= sheets_->surface.rotation().transpose() * sheets_->own.rotation();
     return {corrected.lengths, by_length.asDiagonal() * by_mark + gradient, by_length};
   }

@@ -10,8 +10,8 @@
 
 namespace chaintrue::grid::estimation {
 
-UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance) {
-  const Eigen::Index n = covariance.rows();
+UnitMatrix unit_whitening(const MatrixXd& covariance) {
+  const Index n = covariance.rows();
   if (n < 1 || n > kMostUnitReadings || covariance.cols() != n) {
     throw precondition(
         "the covariance of a unit's readings is {} x {}; 1 to {} readings are allowed", n,
@@ -19,10 +19,10 @@ UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance) {
   }
   if (n == 1) return UnitMatrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
   if (n == 2) {
-    const Eigen::Matrix2d lower = Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL();
+    const Matrix2d lower = Eigen::LLT<Matrix2d>(covariance).matrixL();
     return lower.inverse();
   }
-  return linear::Cholesky(covariance).half_solve(Eigen::MatrixXd::Identity(n, n));
+  return linear::Cholesky(covariance).half_solve(MatrixXd::Identity(n, n));
 }
 
 }  // namespace chaintrue::grid::estimation

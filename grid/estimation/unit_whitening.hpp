@@ -7,8 +7,9 @@
 /// for readings with covariance C. Source: G. Golub and C. Van Loan, Matrix Computations (2013), section 6.1.
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/LU>
+
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -18,6 +19,6 @@ inline constexpr int kMostUnitReadings = 4;
 using UnitMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnitReadings, kMostUnitReadings>;
 /// W of (1), of at most kMostUnitReadings readings. \throws std::invalid_argument with more.
-UnitMatrix unit_whitening(const Eigen::MatrixXd& covariance);
+UnitMatrix unit_whitening(const MatrixXd& covariance);
 
 }  // namespace chaintrue::grid::estimation

@@ -10,26 +10,23 @@
 /// Private to grid/estimation.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "grid/chain_rows.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::estimation {
 
 struct Unknowns {
-  Eigen::Index of_set = 0;
-  Eigen::Index scales = 0;       ///< two, or none: a surface corrects the lengths of two chains
-  Eigen::Index polynomials = 0;  ///< of each chain's surface
-  Eigen::Index penalised = 0;    ///< of each chain's surface
+  Index of_set = 0;
+  Index scales = 0;       ///< two, or none: a surface corrects the lengths of two chains
+  Index polynomials = 0;  ///< of each chain's surface
+  Index penalised = 0;    ///< of each chain's surface
 
-  Eigen::Index scale(model::Side side) const { return of_set + row_of(side); }
-  Eigen::Index polynomial(model::Side side) const {
-    return of_set + scales + row_of(side) * polynomials;
-  }
-  Eigen::Index first_penalised_of(model::Side side) const {
+  Index scale(model::Side side) const { return of_set + row_of(side); }
+  Index polynomial(model::Side side) const { return of_set + scales + row_of(side) * polynomials; }
+  Index first_penalised_of(model::Side side) const {
     return of_set + scales + 2 * polynomials + row_of(side) * penalised;
   }
-  Eigen::Index total() const { return of_set + scales + 2 * (polynomials + penalised); }
+  Index total() const { return of_set + scales + 2 * (polynomials + penalised); }
 };
 
 }  // namespace chaintrue::grid::estimation

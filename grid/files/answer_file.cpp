@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/answer_file.hpp"
 
+#include "grid/eigen.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/files/records.hpp"
 #include "model/calibration/setting.hpp"
@@ -127,7 +128,7 @@ Json strength_json(const synthetic::StrengthAt& at) {
           {"same_as", json_list(s.inseparable, rival_json)}};
 }
 
-Json vector_json(const Eigen::Vector2d& shift) { return Json::array({shift.x(), shift.y()}); }
+Json vector_json(const Vector2d& shift) { return Json::array({shift.x(), shift.y()}); }
 
 Json mark_json(const synthetic::ShiftedMark& mark) {
   return {{"x_mm", mark.mark.x_mm},

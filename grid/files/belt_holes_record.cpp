@@ -5,6 +5,7 @@
 
 #include "grid/belts/belt_holes.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/record_values.hpp"
 
@@ -84,8 +85,8 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
   if (holes.holes.size() < kFewestHoles) at.child("holes").expect("three holes at least");
   if (!holes.machine.anchors_known)
     at.child("machine").expect("the anchors in force when the holes were cut");
-  const Eigen::Index moved = holes.displacement ? holes.displacement->at_mm.size() : 0;
-  const Eigen::Index size = belts::kFrameUnknowns + moved;
+  const Index moved = holes.displacement ? holes.displacement->at_mm.size() : 0;
+  const Index size = belts::kFrameUnknowns + moved;
   if (holes.covariance.rows() != size || holes.covariance.cols() != size) {
     at.child("covariance")
         .expect(fmt::format("{} rows of as many numbers: six, and two for each place of the "
@@ -111,16 +112,15 @@ Record<HolesWithBelts> holes_with_belts_record() {
            "Displacement of the tool from the position given by its upper two belts; absent: "
            "the holes show none.",
            displacement_record())
-  OPTIONAL(sheet,
-           "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
-           converted<Eigen::Vector3d>(
-               object(stated_sheet_record()),
-               [](const SheetPlacement& own) {
-                 return Eigen::Vector3d(own.x_mm, own.y_mm, own.rotation_rad);
-               },
-               [](const Eigen::Vector3d& own) {
-                 return SheetPlacement{own.x(), own.y(), own.z()};
-               }))
+  OPTIONAL(
+      sheet,
+      "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
+      converted<Vector3d>(
+          object(stated_sheet_record()),
+          [](const SheetPlacement& own) { return Vector3d(own.x_mm, own.y_mm, own.rotation_rad); },
+          [](const Vector3d& own) {
+            return SheetPlacement{own.x(), own.y(), own.z()};
+          }))
   REQUIRED(covariance,
            "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
            "displacement at each of its places.",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/provenance_record.hpp"
@@ -52,7 +53,7 @@ auto stated_tape_record() {
 }
 
 /// x or y, for points only.
-void shift_key(Record<Outlier>& shift, const char* key, const char* meaning, Eigen::Index axis) {
+void shift_key(Record<Outlier>& shift, const char* key, const char* meaning, Index axis) {
   shift.computed(
       key, meaning, false, number(kMillimetres),
       [axis](Outlier& bad, double value) { bad.shift_mm[axis] = value; },

@@ -2,6 +2,7 @@
 // Places on the bed in a chaintrue_diagnosis file: the points as the pictures show them, and what
 // to measure next.
 
+#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -93,7 +94,7 @@ Record<DistancePicture> distance_picture_record() {
 Record<PointPicture> point_picture_record() {
   using Lengths = model::ChainLengths;
   constexpr int kMostOrder = 1000000000;
-  const Value<Eigen::Vector2d> pair = pair_of_numbers(kMillimetres);
+  const Value<Vector2d> pair = pair_of_numbers(kMillimetres);
   RECORD(PointPicture, "a point")
   REQUIRED(index, "Its number in the file.")
   ALSO(place_keys)

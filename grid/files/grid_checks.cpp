@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <map>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_checks.hpp"
 #include "interp/linear_algebra.hpp"
@@ -66,11 +66,10 @@ std::optional<model::PerSide<Slope>> slopes_of(const std::vector<MeasuredPoint>&
   for (const Eigen::Vector4d& row : rows) mean += row / as_double(rows.size());
   Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
   for (const Eigen::Vector4d& row : rows) products += (row - mean) * (row - mean).transpose();
-  const Eigen::Matrix2d spread = products.topLeftCorner<2, 2>();
+  const Matrix2d spread = products.topLeftCorner<2, 2>();
   constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
-  const Eigen::Matrix2d slope =
-      Eigen::LDLT<Eigen::Matrix2d>(spread).solve(products.topRightCorner<2, 2>());
+  const Matrix2d slope = Eigen::LDLT<Matrix2d>(spread).solve(products.topRightCorner<2, 2>());
   return model::PerSide<Slope>{{slope(0, 0), slope(1, 0)}, {slope(0, 1), slope(1, 1)}};
 }
 
@@ -103,11 +102,11 @@ const char* unit_of(double factor) { return factor < kFewestInches ? "centimetre
 
 /// The largest distance of a mark from the line that fits all of them best.
 double width_across_best_line(const std::vector<MeasuredPoint>& points) {
-  Eigen::Matrix2Xd places(2, as_index(points.size()));
+  Matrix2Xd places(2, as_index(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
     places.col(as_index(i)) << points[i].mark.x_mm, points[i].mark.y_mm;
-  places.colwise() -= Eigen::Vector2d(places.rowwise().mean());
-  const linear::SymmetricEigen spread(Eigen::MatrixXd(places * places.transpose()));
+  places.colwise() -= Vector2d(places.rowwise().mean());
+  const linear::SymmetricEigen spread(MatrixXd(places * places.transpose()));
   return (spread.eigenvectors().col(0).transpose() * places).cwiseAbs().maxCoeff();
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of points measured twice.
 #include <fmt/format.h>
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/files/grid_checks.hpp"
 #include "model/kinematics.hpp"
 
@@ -22,7 +22,7 @@ constexpr std::size_t kMostWarnings = 20;
 struct Compared {
   std::size_t index;
   model::MarkPoint mark;
-  Eigen::Vector2d off_mm;
+  Vector2d off_mm;
 };
 
 /// The reference for a reading, and how far the residual may change from one point to a near one.
@@ -60,7 +60,7 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
     if (kinematics) {
       const auto pose = kinematics->inverse(model::identity_placement(point.mark));
       if (!pose) continue;
-      reading.off_mm -= Eigen::Vector2d(pose->lengths.left_mm, pose->lengths.right_mm);
+      reading.off_mm -= Vector2d(pose->lengths.left_mm, pose->lengths.right_mm);
     }
     lengths.readings.push_back(reading);
   }

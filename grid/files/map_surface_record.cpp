@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/eigen.hpp"
 #include "grid/files/records.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ struct SplinePart {
   int x_intervals = 0;
   int y_intervals = 0;
   model::PerSide<double> scale;
-  model::PerSide<Eigen::VectorXd> coefficients_mm;
+  model::PerSide<VectorXd> coefficients_mm;
 };
 
 /// A ModelSurface as its file has it: the basis by its intervals, and the triangle alone of the
@@ -68,12 +69,12 @@ auto spline_record() {
   FIELD(required, "coefficients_left_mm",
         "Coefficients of cubic B-splines for the left chain, y varying fastest: "
         "(x_intervals + 3) (y_intervals + 3) values.",
-        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::left), vector_of_numbers())
+        path(&SplinePart::coefficients_mm, &PerSide<VectorXd>::left), vector_of_numbers())
   FIELD(required, "coefficients_right_mm", "Coefficients for the right chain, in the same order.",
-        path(&SplinePart::coefficients_mm, &PerSide<Eigen::VectorXd>::right), vector_of_numbers())
+        path(&SplinePart::coefficients_mm, &PerSide<VectorXd>::right), vector_of_numbers())
       .check([](const Cursor& at, SplinePart& part) {
         if (!at.clean()) return;
-        const Eigen::Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
+        const Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
         const std::string expected = fmt::format("{} coefficients, as the intervals require", size);
         const auto& [left, right] = part.coefficients_mm;
         if (left.size() != size) at.child("coefficients_left_mm").expect(expected);
@@ -114,7 +115,7 @@ bool rises(const Numbers& values) {
 
 struct NodeValues {
   const char* key;
-  const Eigen::MatrixXd* values;
+  const MatrixXd* values;
 };
 
 /// Checks that nodes increase, and that there are as many values as nodes.
@@ -135,7 +136,7 @@ void check_nodes(const Cursor& at, const Surface& surface,
 
 /// The nodes, and the chains at each of them.
 template <class Surface>
-void node_keys(Record<Surface>& record, model::PerSide<Eigen::MatrixXd> Surface::*chains) {
+void node_keys(Record<Surface>& record, model::PerSide<MatrixXd> Surface::*chains) {
   const auto values = matrix_of_numbers(kAnyNumber, 2);
   record
       .required("x_nodes_mm", "Nodes along x, increasing.", &Surface::x_nodes_mm,
@@ -143,9 +144,9 @@ void node_keys(Record<Surface>& record, model::PerSide<Eigen::MatrixXd> Surface:
       .required("y_nodes_mm", "Nodes along y, increasing.", &Surface::y_nodes_mm,
                 list(kAnyNumber, 2))
       .required("left_mm", "Left chain at every node: one list for each x.",
-                path(chains, &PerSide<Eigen::MatrixXd>::left), values)
-      .required("right_mm", "Right chain at every node.",
-                path(chains, &PerSide<Eigen::MatrixXd>::right), values);
+                path(chains, &PerSide<MatrixXd>::left), values)
+      .required("right_mm", "Right chain at every node.", path(chains, &PerSide<MatrixXd>::right),
+                values);
 }
 
 constexpr const char* kBetweenNodes = "Error of the splines between nodes, 1 sigma.";
@@ -201,10 +202,9 @@ ModelPart part_of(const ModelSurface& surface) {
                   static_cast<int>(basis.columns_y()) - 3, scale, coefficients},
                  {},
                  surface.lattice};
-  for (Eigen::Index i = 0; i < surface.covariance_factor.rows(); ++i) {
+  for (Index i = 0; i < surface.covariance_factor.rows(); ++i) {
     Numbers& row = part.covariance_factor.emplace_back();
-    for (Eigen::Index j = 0; j <= i; ++j)
-      row.push_back(seven_digits(surface.covariance_factor(i, j)));
+    for (Index j = 0; j <= i; ++j) row.push_back(seven_digits(surface.covariance_factor(i, j)));
   }
   return part;
 }
@@ -215,12 +215,12 @@ ModelSurface surface_of(const ModelPart& part) {
   const FitColumns columns{as_index(part.settings.size()), basis.size()};
   ModelSurface surface{
       part.machine, part.sheet,    {basis, own.scale, own.coefficients_mm},
-      columns,      part.settings, Eigen::MatrixXd::Zero(columns.total(), columns.total()),
+      columns,      part.settings, MatrixXd::Zero(columns.total(), columns.total()),
       part.lattice};
   for (std::size_t i = 0; i < part.covariance_factor.size(); ++i) {
     const Numbers& row = part.covariance_factor[i];
     surface.covariance_factor.row(as_index(i)).head(as_index(row.size())) =
-        Eigen::Map<const Eigen::RowVectorXd>(row.data(), as_index(row.size()));
+        Eigen::Map<const RowVectorXd>(row.data(), as_index(row.size()));
   }
   return surface;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/eigen.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
@@ -28,9 +29,9 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   }
   // Rounding may move a correlation matrix's least eigenvalue below zero by this.
   constexpr double kRounding = 1e-6;
-  const Eigen::VectorXd scale = found.covariance().diagonal().cwiseSqrt();
-  Eigen::MatrixXd of_ones = found.covariance();
-  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+  const VectorXd scale = found.covariance().diagonal().cwiseSqrt();
+  MatrixXd of_ones = found.covariance();
+  for (Index i = 0; i < scale.size(); ++i) {
     if (!(scale[i] > 0.0)) return;
     of_ones.row(i) /= scale[i];
     of_ones.col(i) /= scale[i];

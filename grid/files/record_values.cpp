@@ -15,21 +15,21 @@ Value<std::size_t> index_number(int least, int most) {
       [](std::size_t value) { return static_cast<int>(value); });
 }
 
-Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order) {
+Value<Vector2d> pair_of_numbers(const Range& range, bool in_order) {
   const Value<std::vector<double>> numbers = list(number(range), 2);
   const std::string expected =
       fmt::format("a pair of numbers{}{}{}", range.unit.empty() ? "" : " in ", range.unit,
                   in_order ? ", the lower one first" : "");
-  return {[numbers, expected, in_order](const Cursor& at) -> std::optional<Eigen::Vector2d> {
+  return {[numbers, expected, in_order](const Cursor& at) -> std::optional<Vector2d> {
             const auto read = numbers.read(at);
             if (!read || read->size() < 2) return std::nullopt;
-            const Eigen::Vector2d pair((*read)[0], (*read)[1]);
+            const Vector2d pair((*read)[0], (*read)[1]);
             if (read->size() == 2 && (!in_order || pair[0] <= pair[1])) return pair;
             at.expect(expected);
             return std::nullopt;
           },
           // A negative zero would be read back as a zero: the same number, other bytes.
-          [](const Eigen::Vector2d& pair) {
+          [](const Vector2d& pair) {
             return Json::array({pair[0] + 0.0, pair[1] + 0.0});
           },
           {expected, [numbers] {
@@ -39,31 +39,29 @@ Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order) {
            }}};
 }
 
-Value<Eigen::VectorXd> vector_of_numbers() {
+Value<VectorXd> vector_of_numbers() {
   using Numbers = std::vector<double>;
-  return converted<Eigen::VectorXd>(
+  return converted<VectorXd>(
       list(kAnyNumber),
-      [](const Numbers& values) -> Eigen::VectorXd {
-        return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
+      [](const Numbers& values) -> VectorXd {
+        return Eigen::Map<const VectorXd>(values.data(), as_index(values.size()));
       },
-      [](const Eigen::VectorXd& values) { return Numbers(values.begin(), values.end()); });
+      [](const VectorXd& values) { return Numbers(values.begin(), values.end()); });
 }
 
-Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest) {
+Value<MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest) {
   using Rows = std::vector<std::vector<double>>;
-  return converted<Eigen::MatrixXd>(
+  return converted<MatrixXd>(
       list(list(range, fewest), fewest),
       [](const Rows& rows) {
         const std::size_t wide = rows.empty() ? 0 : rows.front().size();
-        if (!all_of(rows, [&](const auto& row) { return row.size() == wide; }))
-          return Eigen::MatrixXd();
-        Eigen::MatrixXd matrix(as_index(rows.size()), as_index(wide));
+        if (!all_of(rows, [&](const auto& row) { return row.size() == wide; })) return MatrixXd();
+        MatrixXd matrix(as_index(rows.size()), as_index(wide));
         for (std::size_t i = 0; i < rows.size(); ++i)
-          matrix.row(as_index(i)) =
-              Eigen::Map<const Eigen::RowVectorXd>(rows[i].data(), matrix.cols());
+          matrix.row(as_index(i)) = Eigen::Map<const RowVectorXd>(rows[i].data(), matrix.cols());
         return matrix;
       },
-      [](const Eigen::MatrixXd& matrix) {
+      [](const MatrixXd& matrix) {
         Rows rows;
         for (const auto& row : matrix.rowwise()) rows.emplace_back(row.begin(), row.end());
         return rows;

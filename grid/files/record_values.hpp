@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "model/calibration/setting.hpp"
@@ -26,11 +27,11 @@ inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
 
 /// A vector in the plane, or a number for each chain, as a pair of numbers; `in_order`: the lower
 /// one first.
-Value<Eigen::Vector2d> pair_of_numbers(const Range& range, bool in_order = false);
+Value<Vector2d> pair_of_numbers(const Range& range, bool in_order = false);
 
 /// Two members of an object as such a pair.
 template <class T>
-Value<T> members_as_pair(const Value<Eigen::Vector2d>& pair, double T::*first, double T::*second) {
+Value<T> members_as_pair(const Value<Vector2d>& pair, double T::*first, double T::*second) {
   return partial<T>(
       pair.expected,
       [=](const Cursor& at, T& object) {
@@ -45,8 +46,8 @@ Value<T> members_as_pair(const Value<Eigen::Vector2d>& pair, double T::*first, d
 }
 
 /// A list of numbers, or rows of numbers; rows of different lengths give a 0 x 0 matrix.
-Value<Eigen::VectorXd> vector_of_numbers();
-Value<Eigen::MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest);
+Value<VectorXd> vector_of_numbers();
+Value<MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest);
 
 /// A dimension of a machine: its range is checked by model::problems_of, for files and programs in
 /// one place.

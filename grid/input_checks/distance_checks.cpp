@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/transformation_search.hpp"
 #include "grid/plane_vectors.hpp"
@@ -17,7 +18,7 @@ namespace chaintrue::grid::input_checks {
 namespace {
 
 /// Sheet right and up, its turn, three strains, the tape's zero offset.
-constexpr Eigen::Index kDistanceBasis = 7;
+constexpr Index kDistanceBasis = 7;
 /// One sigma of each: a sheet laid by hand; machines err by 3 mm a metre before they are calibrated.
 constexpr double kSheetMm = 10.0;
 constexpr double kPerMetreMm = 5.0;
@@ -28,19 +29,19 @@ constexpr double kOddDistances = 25.0;
 /// Half of the distances are this far off, without an explanation.
 constexpr double kStrangeDistancesMm = 60.0;
 
-Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
+RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
   const model::BedPoint from = set.holes[distance.from].commanded;
-  Eigen::RowVectorXd basis = Eigen::RowVectorXd::Zero(kDistanceBasis);
+  RowVectorXd basis = RowVectorXd::Zero(kDistanceBasis);
   basis[6] = 1.0;
   if (!distance.edge) {
     const model::BedPoint to = set.holes[distance.to].commanded;
-    const Eigen::Vector2d way = difference(to, from);
+    const Vector2d way = difference(to, from);
     const double length = std::max(1.0, way.norm());
     basis.segment<3>(3) << way.x() * way.x(), way.y() * way.y(), way.x() * way.y();
     basis.segment<3>(3) /= length * kMetreMm;
     return basis;
   }
-  const Eigen::Vector2d at = vector_of(from) / kMetreMm;
+  const Vector2d at = vector_of(from) / kMetreMm;
   const EdgeLine line = edge_line(set, *distance.edge);
   basis[line.axis] = line.sign;
   basis[2] = line.sign * (line.axis == 0 ? -at.y() : at.x());
@@ -48,8 +49,8 @@ Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distan
   return basis;
 }
 
-Eigen::VectorXd distance_sigmas(const MeasuredHoles& set) {
-  Eigen::VectorXd sigma(kDistanceBasis);
+VectorXd distance_sigmas(const MeasuredHoles& set) {
+  VectorXd sigma(kDistanceBasis);
   const double tape_zero_mm =
       std::hypot(kTapeZeroMm, set.tape.tape_zero_offset_sigma_mm.value_or(0.0));
   sigma << kSheetMm, kSheetMm, kSheetMm, kPerMetreMm, kPerMetreMm, kPerMetreMm, tape_zero_mm;
@@ -58,8 +59,8 @@ Eigen::VectorXd distance_sigmas(const MeasuredHoles& set) {
 
 TrendRows distance_rows(const MeasuredHoles& set) {
   const auto n = as_index(set.distances.size());
-  TrendRows rows{Eigen::MatrixXd(n, kDistanceBasis), Eigen::MatrixXd(n, 1)};
-  for (Eigen::Index i = 0; i < n; ++i) {
+  TrendRows rows{MatrixXd(n, kDistanceBasis), MatrixXd(n, 1)};
+  for (Index i = 0; i < n; ++i) {
     const HoleDistance& distance = set.distances[as_size(i)];
     rows.basis.row(i) = basis_of(set, distance);
     rows.off_mm(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
@@ -277,7 +278,7 @@ struct DistanceRows {
 Findings check_distances(const MeasuredHoles& set, Written written) {
   if (set.distances.empty()) return {};
   const TrendRows written_rows = distance_rows(set);
-  const Eigen::VectorXd sigma_mm = distance_sigmas(set);
+  const VectorXd sigma_mm = distance_sigmas(set);
   const RobustTrend trend = robust_trend(written_rows, sigma_mm);
   const DistanceRows rows{set, trend};
   std::vector<bool> is_gross;

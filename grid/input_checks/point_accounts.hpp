@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/plane_vectors.hpp"
@@ -72,9 +73,9 @@ class PointAccounts {
   TrendRows rows(const PlacedPoints& placed) const {
     const auto& [points, places] = placed;
     const auto n = as_index(points.size());
-    TrendRows rows{Eigen::MatrixXd::Zero(n, kPointBasis),
-                   Eigen::MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
-    for (Eigen::Index i = 0; i < n; ++i) {
+    TrendRows rows{MatrixXd::Zero(n, kPointBasis),
+                   MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
+    for (Index i = 0; i < n; ++i) {
       const auto k = as_size(i);
       if (!places[k]) continue;
       rows.basis.row(i) = basis_at(*places[k]);
@@ -84,7 +85,7 @@ class PointAccounts {
     return rows;
   }
 
-  const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
+  const VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
   /// The trend's rotation of the marks to the left about the bed's middle.
   double turn_rad(const RobustTrend& trend) const {
     const double up_along_x = trend.coefficients(1, 1) / half_width_mm_;
@@ -94,26 +95,25 @@ class PointAccounts {
 
   /// The largest of its relative stretches along x and y and its skew.
   double strain(const RobustTrend& trend) const {
-    const Eigen::MatrixXd& c = trend.coefficients;
+    const MatrixXd& c = trend.coefficients;
     const double skew = 0.5 * (c(1, 1) / half_width_mm_ + c(2, 0) / half_height_mm_);
     return std::max(
         {std::abs(c(1, 0)) / half_width_mm_, std::abs(c(2, 1)) / half_height_mm_, std::abs(skew)});
   }
 
   /// Residual of a mark at a place from a trend.
-  Eigen::Vector2d off(const RobustTrend& trend, model::MarkPoint mark,
-                      model::BedPoint place) const {
+  Vector2d off(const RobustTrend& trend, model::MarkPoint mark, model::BedPoint place) const {
     return difference(mark, place) - (basis_at(place) * trend.coefficients).transpose();
   }
 
  private:
-  static constexpr Eigen::Index kPointBasis = 6;
+  static constexpr Index kPointBasis = 6;
 
-  static Eigen::VectorXd point_sigmas(const MeasuredGrid& grid) {
+  static VectorXd point_sigmas(const MeasuredGrid& grid) {
     // Uncalibrated machines as stated have errors of 3 to 13 mm rms over the bed (scans of a real
     // machine), in constant, slope and bend equally.
     constexpr double kErrorMm = 10.0;
-    Eigen::VectorXd sigma = Eigen::VectorXd::Constant(kPointBasis, kErrorMm);
+    VectorXd sigma = VectorXd::Constant(kPointBasis, kErrorMm);
     if (!grid.sheet) return sigma;
     const double half_mm = 0.5 * grid.machine->bed.width_mm;
     sigma[0] = std::hypot(kErrorMm, grid.sheet->shift_mm);
@@ -121,11 +121,11 @@ class PointAccounts {
     return sigma;
   }
 
-  Eigen::RowVectorXd basis_at(model::BedPoint place) const {
+  RowVectorXd basis_at(model::BedPoint place) const {
     // Wrong lengths may end anywhere: the second-degree trend is kept constant beyond the bed.
     const double u = std::clamp(place.x_mm / half_width_mm_, -1.5, 1.5);
     const double v = std::clamp(place.y_mm / half_height_mm_, -1.5, 1.5);
-    Eigen::RowVectorXd basis(kPointBasis);
+    RowVectorXd basis(kPointBasis);
     basis << 1.0, u, v, u * u, u * v, v * v;
     return basis;
   }
@@ -133,7 +133,7 @@ class PointAccounts {
   model::ChainLengths zero_;
   double half_width_mm_;
   double half_height_mm_;
-  Eigen::VectorXd prior_sigma_mm_;
+  VectorXd prior_sigma_mm_;
   std::unique_ptr<const model::Kinematics> kinematics_;
   std::unique_ptr<const model::ControllerKinematics> controller_;
 };

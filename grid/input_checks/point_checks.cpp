@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_accounts.hpp"
 #include "grid/input_checks/whole_checks.hpp"
@@ -122,7 +123,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const Mea
     few.points.push_back(all.points[row]);
     few.places.push_back(all.places[row]);
   }
-  const Eigen::VectorXd& sigma_mm = accounts.prior_sigma_mm();
+  const VectorXd& sigma_mm = accounts.prior_sigma_mm();
   const TrendRows few_rows = accounts.rows(few);
   const Account plain = account_of(robust_trend(few_rows, sigma_mm));
   std::vector<Candidate> candidates =
@@ -151,7 +152,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const Mea
   if (finding && finding->from_row.value_or(0) > 0) {
     const auto from = as_index(*finding->from_row);
     std::vector<double> residual_mm;
-    for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i)
+    for (Index i = from; i < trend.residual_mm.size(); ++i)
       residual_mm.push_back(trend.residual_mm[i]);
     finding->found = fmt::format("half of the marks from here on are off by more than {}",
                                  length_in_words(median(std::move(residual_mm))));

@@ -23,7 +23,7 @@ constexpr double kAnywhereMm = 2000.0;
 
 double infinity() { return std::numeric_limits<double>::infinity(); }
 
-double median_of_finite(const Eigen::VectorXd& values) {
+double median_of_finite(const VectorXd& values) {
   std::vector<double> finite;
   for (const double value : values) {
     if (std::isfinite(value)) finite.push_back(value);
@@ -35,23 +35,23 @@ double median_of_finite(const Eigen::VectorXd& values) {
 
 double RobustTrend::median_residual_mm() const { return median_of_finite(residual_mm); }
 
-double log_density_of(double residual_mm, double scale_mm, Eigen::Index components) {
+double log_density_of(double residual_mm, double scale_mm, Index components) {
   return -0.5 * as_double(components + 1) * std::log1p(std::pow(residual_mm / scale_mm, 2));
 }
 
-RobustTrend robust_trend(const TrendRows& rows, const Eigen::VectorXd& prior_sigma_mm) {
-  const Eigen::MatrixXd& basis = rows.basis;
-  const Eigen::MatrixXd& readings_mm = rows.off_mm;
-  const Eigen::Index n = readings_mm.rows();
-  const Eigen::Index components = readings_mm.cols();
-  const auto is_there = [&](Eigen::Index i) {
+RobustTrend robust_trend(const TrendRows& rows, const VectorXd& prior_sigma_mm) {
+  const MatrixXd& basis = rows.basis;
+  const MatrixXd& readings_mm = rows.off_mm;
+  const Index n = readings_mm.rows();
+  const Index components = readings_mm.cols();
+  const auto is_there = [&](Index i) {
     return readings_mm.row(i).allFinite() && basis.row(i).allFinite();
   };
   RobustTrend trend;
-  trend.coefficients = Eigen::MatrixXd::Zero(basis.cols(), components);
-  trend.residual_mm = Eigen::VectorXd::Constant(n, infinity());
+  trend.coefficients = MatrixXd::Zero(basis.cols(), components);
+  trend.residual_mm = VectorXd::Constant(n, infinity());
   const auto take_residuals = [&] {
-    for (Eigen::Index i = 0; i < n; ++i) {
+    for (Index i = 0; i < n; ++i) {
       if (is_there(i))
         trend.residual_mm[i] = (readings_mm.row(i) - basis.row(i) * trend.coefficients).norm();
     }
@@ -59,15 +59,15 @@ RobustTrend robust_trend(const TrendRows& rows, const Eigen::VectorXd& prior_sig
   take_residuals();
   const double start_mm = trend.median_residual_mm();
   trend.scale_mm = std::max(kLeastScaleMm, std::isfinite(start_mm) ? start_mm : kLeastScaleMm);
-  const Eigen::MatrixXd prior = prior_sigma_mm.cwiseAbs2().cwiseInverse().asDiagonal();
+  const MatrixXd prior = prior_sigma_mm.cwiseAbs2().cwiseInverse().asDiagonal();
   const auto dof = as_double(components + 1);
   for (int step = 0; step < kSteps; ++step) {
     const double variance = trend.scale_mm * trend.scale_mm;
-    Eigen::MatrixXd normal = prior;
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(basis.cols(), components);
+    MatrixXd normal = prior;
+    MatrixXd right = MatrixXd::Zero(basis.cols(), components);
     double sum = 0.0;
     double count = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i) {
+    for (Index i = 0; i < n; ++i) {
       if (!std::isfinite(trend.residual_mm[i])) continue;
       const double weight = dof / (1.0 + trend.residual_mm[i] * trend.residual_mm[i] / variance);
       normal.noalias() += weight / variance * basis.row(i).transpose() * basis.row(i);

@@ -9,20 +9,20 @@
 /// 881). Accounts of the same readings are compared by their log-likelihoods.
 #pragma once
 
-#include <Eigen/Core>
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 
 /// B and r of (1).
 struct TrendRows {
-  Eigen::MatrixXd basis;
-  Eigen::MatrixXd off_mm;
+  MatrixXd basis;
+  MatrixXd off_mm;
 };
 
 struct RobustTrend {
-  Eigen::MatrixXd coefficients;  ///< (basis, component)
-  Eigen::VectorXd residual_mm;   ///< |r_i - B_i beta|; infinity for a missing row
-  double scale_mm = 0.0;         ///< s
+  MatrixXd coefficients;  ///< (basis, component)
+  VectorXd residual_mm;   ///< |r_i - B_i beta|; infinity for a missing row
+  double scale_mm = 0.0;  ///< s
   double log_likelihood =
       0.0;  ///< at the maximum of (1), with the prior's factor relative to beta = 0
   double prior_chi_square = 0.0;  ///< sum_j (beta_j / sigma_j)^2
@@ -32,9 +32,9 @@ struct RobustTrend {
 
 /// A row that is not finite is missing and counts as uniform over the bed. \pre as many rows of
 /// basis as of readings, all sigmas positive.
-RobustTrend robust_trend(const TrendRows& rows, const Eigen::VectorXd& prior_sigma_mm);
+RobustTrend robust_trend(const TrendRows& rows, const VectorXd& prior_sigma_mm);
 
 /// Log-likelihood of a reading that is off by this, relative to an exact one.
-double log_density_of(double residual_mm, double scale_mm, Eigen::Index components);
+double log_density_of(double residual_mm, double scale_mm, Index components);
 
 }  // namespace chaintrue::grid::input_checks

@@ -14,8 +14,6 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-using Eigen::Index;
-
 /// Before a trend is known.
 constexpr double kCoarseMm = 20.0;
 /// A row that is missing.
@@ -33,8 +31,8 @@ struct Part {
 };
 
 /// Gain in log-likelihood of each row by the correction, about a trend.
-std::vector<double> gains(const TrendRows& plain, const TrendRows& mended,
-                          const Eigen::MatrixXd& trend, double scale_mm) {
+std::vector<double> gains(const TrendRows& plain, const TrendRows& mended, const MatrixXd& trend,
+                          double scale_mm) {
   const Index components = plain.off_mm.cols();
   const auto density = [&](const TrendRows& rows, Index i) {
     const double off_mm = (rows.off_mm.row(i) - rows.basis.row(i) * trend).norm();
@@ -66,7 +64,7 @@ double log_choices(std::size_t of, std::size_t taken) {
 
 class Search {
  public:
-  Search(const Eigen::VectorXd& sigma_mm, const TrendRows& plain,
+  Search(const VectorXd& sigma_mm, const TrendRows& plain,
          const std::function<std::string(std::size_t)>& name_of_row)
       : sigma_mm_(sigma_mm),
         plain_(plain),
@@ -80,8 +78,8 @@ class Search {
       add(own, whole, {{}, std::nullopt, "", 0.0}, candidates);
     if (own.of == Transformation::Of::all || count() < 2 * kFewestRows) return;
     std::vector<RowSet> seen;
-    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(plain_.basis.cols(), plain_.off_mm.cols());
-    for (const Eigen::MatrixXd& about : {none, plain_trend_.coefficients, whole.coefficients}) {
+    const MatrixXd none = MatrixXd::Zero(plain_.basis.cols(), plain_.off_mm.cols());
+    for (const MatrixXd& about : {none, plain_trend_.coefficients, whole.coefficients}) {
       for (Part part : parts_of(own, gains(plain_, all, about, kCoarseMm)))
         refine(own, all, std::move(part), seen, candidates);
     }
@@ -167,7 +165,7 @@ class Search {
     }
   }
 
-  const Eigen::VectorXd& sigma_mm_;
+  const VectorXd& sigma_mm_;
   const TrendRows& plain_;
   RobustTrend plain_trend_;
   const std::function<std::string(std::size_t)>& name_of_row_;
@@ -179,7 +177,7 @@ Account account_of(const RobustTrend& trend) {
   return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
 }
 
-std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm, const TrendRows& as_written,
+std::vector<Candidate> searched(const VectorXd& prior_sigma_mm, const TrendRows& as_written,
                                 const std::vector<Transformation>& transformations,
                                 const std::function<std::string(std::size_t)>& name_of_row) {
   std::vector<Candidate> candidates;

@@ -16,12 +16,12 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 
@@ -78,7 +78,7 @@ Account account_of(const RobustTrend& trend);
 
 /// An account for each transformation of all rows, and for the likeliest part of them if it is much
 /// likelier than no row. `name_of_row` is the row's own number.
-std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm, const TrendRows& as_written,
+std::vector<Candidate> searched(const VectorXd& prior_sigma_mm, const TrendRows& as_written,
                                 const std::vector<Transformation>& transformations,
                                 const std::function<std::string(std::size_t)>& name_of_row);
 

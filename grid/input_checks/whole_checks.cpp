@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/plane_vectors.hpp"
 
@@ -64,23 +65,23 @@ class List : public Transformations<PlacedPoints> {
 void add_axes(List& list) {
   struct Axes {
     const char* sentence;
-    Eigen::Matrix2d meant;
+    Matrix2d meant;
   };
   constexpr const char* kQuarter =
       "the axes look rotated by a quarter turn: x_mm counts to the right, y_mm up the sheet";
   const Axes axes[] = {
       {"the sign of x_mm looks reversed: x_mm counts to the right of the bed's middle",
-       Eigen::Matrix2d{{-1, 0}, {0, 1}}},
-      {"y_mm looks counted downwards: it counts up the sheet", Eigen::Matrix2d{{1, 0}, {0, -1}}},
+       Matrix2d{{-1, 0}, {0, 1}}},
+      {"y_mm looks counted downwards: it counts up the sheet", Matrix2d{{1, 0}, {0, -1}}},
       {"the signs of x_mm and y_mm both look reversed: they count to the right and up the sheet",
-       Eigen::Matrix2d{{-1, 0}, {0, -1}}},
+       Matrix2d{{-1, 0}, {0, -1}}},
       {"the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
-       Eigen::Matrix2d{{0, 1}, {1, 0}}},
-      {kQuarter, Eigen::Matrix2d{{0, 1}, {-1, 0}}},
-      {kQuarter, Eigen::Matrix2d{{0, -1}, {1, 0}}}};
+       Matrix2d{{0, 1}, {1, 0}}},
+      {kQuarter, Matrix2d{{0, 1}, {-1, 0}}},
+      {kQuarter, Matrix2d{{0, -1}, {1, 0}}}};
   for (const Axes& own : axes) {
     list.mark(ProblemKind::axes, own.sentence, [meant = own.meant](MarkPoint m, BedPoint) {
-      const Eigen::Vector2d at = meant * vector_of(m);
+      const Vector2d at = meant * vector_of(m);
       return MarkPoint{at.x(), at.y()};
     });
   }

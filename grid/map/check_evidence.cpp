@@ -19,18 +19,18 @@ using QuantityKind = model::ChangedQuantity::Kind;
 struct Proposal {
   CheckHypothesis hypothesis;
   double prior = 0.0;
-  Eigen::VectorXd mean;   ///< of r; empty: nothing
-  Eigen::MatrixXd by_q;   ///< X
-  Eigen::VectorXd sigma;  ///< of q
+  VectorXd mean;   ///< of r; empty: nothing
+  MatrixXd by_q;   ///< X
+  VectorXd sigma;  ///< of q
   /// Which of the hypothesis' quantities each q is.
   std::vector<std::size_t> quantity_of_q;
 };
 
 /// The effect of a unit of a quantity on the residuals.
-Eigen::VectorXd column_of(const CheckReadings& readings, const model::ChangedQuantity& quantity) {
+VectorXd column_of(const CheckReadings& readings, const model::ChangedQuantity& quantity) {
   if (quantity.kind == QuantityKind::parameter)
     return readings.by_parameter.col(as_index(quantity.parameter));
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(readings.lengths_mm.size());
+  VectorXd added = VectorXd::Zero(readings.lengths_mm.size());
   for (const std::size_t length : quantity.lengths) {
     for (auto i = as_index(length); i < added.size(); i += as_index(readings.lengths))
       added[i] = quantity.kind == QuantityKind::elongation ? -readings.lengths_mm[i] : 1.0;
@@ -49,13 +49,13 @@ Proposal proposal_of(const CheckReadings& readings, const model::MechanismChange
   hypothesis.count = change.count;
   for (const model::ChangedQuantity& quantity : change.quantities) {
     hypothesis.found.push_back({quantity, quantity.mean, 0.0});
-    const Eigen::VectorXd column = column_of(readings, quantity);
+    const VectorXd column = column_of(readings, quantity);
     if (quantity.mean != 0.0) {
-      if (proposal.mean.size() == 0) proposal.mean = Eigen::VectorXd::Zero(column.size());
+      if (proposal.mean.size() == 0) proposal.mean = VectorXd::Zero(column.size());
       proposal.mean += quantity.mean * column;
     }
     if (quantity.sigma == 0.0) continue;
-    const Eigen::Index at = proposal.by_q.cols();
+    const Index at = proposal.by_q.cols();
     proposal.by_q.conservativeResize(column.size(), at + 1);
     proposal.by_q.col(at) = column;
     proposal.sigma.conservativeResize(at + 1);
@@ -99,9 +99,9 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
   for (std::size_t u = 0; u < readings.units.size(); ++u)
     unit_of.resize(readings.units[u].first_row + readings.units[u].rows, u);
   std::vector<Eigen::Triplet<double>> shared;
-  Eigen::Index columns = 0;
-  for (Eigen::Index length = 0; length < readings.by_length.cols(); ++length) {
-    std::vector<std::pair<Eigen::Index, double>> conditioned;
+  Index columns = 0;
+  for (Index length = 0; length < readings.by_length.cols(); ++length) {
+    std::vector<std::pair<Index, double>> conditioned;
     for (Eigen::SparseMatrix<double>::InnerIterator at(readings.by_length, length); at; ++at)
       conditioned.emplace_back(at.row(), kUnknownSigmaMm * at.value());
     if (conditioned.empty()) continue;
@@ -117,7 +117,7 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
     ++columns;
   }
   if (columns == 0) return k;
-  for (Eigen::Index column = 0; column < k.shared.cols(); ++column) {
+  for (Index column = 0; column < k.shared.cols(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator at(k.shared, column); at; ++at)
       shared.emplace_back(at.row(), columns + column, at.value());
   }
@@ -164,11 +164,11 @@ class Evidence {
 
   /// A bad unit: kOutlierSigmaMm is added to its noise.
   double of_bad_unit(std::size_t unit) const {
-    const Eigen::MatrixXd& precision = precision_[unit];
-    Eigen::MatrixXd m = kOutlierSigmaMm * kOutlierSigmaMm * precision;
+    const MatrixXd& precision = precision_[unit];
+    MatrixXd m = kOutlierSigmaMm * kOutlierSigmaMm * precision;
     m.diagonal().array() += 1.0;
     const linear::Cholesky factor(std::move(m));
-    const Eigen::VectorXd conditioned =
+    const VectorXd conditioned =
         kOutlierSigmaMm *
         pulled_.segment(as_index(readings_.units[unit].first_row), precision.rows());
     return log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
@@ -176,26 +176,24 @@ class Evidence {
   }
 
   double of_change(Proposal& proposal) const {
-    const Eigen::VectorXd y =
-        proposal.mean.size() == 0
-            ? residual_
-            : Eigen::VectorXd(residual_ - nothing_.conditioned(proposal.mean));
+    const VectorXd y = proposal.mean.size() == 0
+                           ? residual_
+                           : VectorXd(residual_ - nothing_.conditioned(proposal.mean));
     if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
-    const Eigen::MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
+    const MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
     const linear::Cholesky factor(linear::one_plus_gram(u));
-    const Eigen::VectorXd by_y = linear::product(linear::transposed(u), y);
-    const Eigen::VectorXd taken = factor.solve(by_y);
+    const VectorXd by_y = linear::product(linear::transposed(u), y);
+    const VectorXd taken = factor.solve(by_y);
     const double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                                      y.squaredNorm() - by_y.dot(taken));
-    const Eigen::VectorXd q = proposal.sigma.cwiseProduct(taken);
-    const Eigen::MatrixXd covariance =
+    const VectorXd q = proposal.sigma.cwiseProduct(taken);
+    const MatrixXd covariance =
         proposal.sigma.asDiagonal() * factor.inverse() * proposal.sigma.asDiagonal();
     return value + take_posterior(proposal, q, covariance);
   }
 
   /// Fills the hypothesis; returns the addition to the evidence for a quantity that can only grow.
-  static double take_posterior(Proposal& proposal, const Eigen::VectorXd& q,
-                               const Eigen::MatrixXd& covariance) {
+  static double take_posterior(Proposal& proposal, const VectorXd& q, const MatrixXd& covariance) {
     double added = 0.0;
     for (std::size_t k = 0; k < proposal.quantity_of_q.size(); ++k) {
       const auto at = as_index(k);
@@ -210,9 +208,9 @@ class Evidence {
 
   const CheckReadings& readings_;
   FactoredCovariance nothing_;
-  Eigen::VectorXd residual_;  ///< Y of reading_covariance.hpp (2)
-  Eigen::VectorXd pulled_;    ///< K^-1 r
-  std::vector<Eigen::MatrixXd> precision_;
+  VectorXd residual_;  ///< Y of reading_covariance.hpp (2)
+  VectorXd pulled_;    ///< K^-1 r
+  std::vector<MatrixXd> precision_;
 };
 
 }  // namespace

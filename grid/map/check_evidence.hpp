@@ -23,11 +23,11 @@
 /// evidences; A. O'Hagan and J. Forster, Bayesian Inference (2004), section 11.3, for (3).
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <string>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/check.hpp"
 #include "grid/map/reading_covariance.hpp"
 #include "grid/statistics.hpp"
@@ -36,16 +36,16 @@ namespace chaintrue::grid {
 
 /// For N places with m lengths each.
 struct CheckReadings {
-  Eigen::VectorXd residual_mm;   ///< n
+  VectorXd residual_mm;          ///< n
   ReadingCovariance covariance;  ///< K
   /// nu; infinite: the noise is known.
   double noise_dof = kInfinity;
   /// n x m N: derivatives by a change of each length's readings at each place.
   Eigen::SparseMatrix<double> by_length;
-  std::size_t lengths = 2;       ///< m
-  Eigen::VectorXd lengths_mm;    ///< m N
-  std::vector<double> zero_mm;   ///< as calibrated, m; empty if zeros are not settings
-  Eigen::MatrixXd by_parameter;  ///< n x p; no columns if nothing is known about parameters
+  std::size_t lengths = 2;      ///< m
+  VectorXd lengths_mm;          ///< m N
+  std::vector<double> zero_mm;  ///< as calibrated, m; empty if zeros are not settings
+  MatrixXd by_parameter;        ///< n x p; no columns if nothing is known about parameters
   std::vector<model::MechanismChange> changes;
   std::vector<CheckUnit> units;    ///< in the order of the rows of `covariance`
   std::vector<std::string> names;  ///< of the rows

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -116,9 +117,8 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
 }
 
 /// The covariance of the mean of a mark's readings.
-Eigen::Matrix2d noise_at(const CheckedPart& part, const Repeated& one,
-                         const Eigen::Matrix2d& by_mark) {
-  Eigen::Matrix2d covariance =
+Matrix2d noise_at(const CheckedPart& part, const Repeated& one, const Matrix2d& by_mark) {
+  Matrix2d covariance =
       observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
       one.count;
   covariance.diagonal().array() += kLeastVarianceMm2;
@@ -210,11 +210,11 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
 /// jointly or place by place.
 struct MapAt {
   std::vector<model::ChainLengths> lengths;
-  std::vector<Eigen::Matrix2d> by_mark;
-  Eigen::MatrixXd factor;                   ///< F, 2 N x any
-  std::vector<Eigen::Matrix2d> covariance;  ///< for each place; empty if F contains it
+  std::vector<Matrix2d> by_mark;
+  MatrixXd factor;                   ///< F, 2 N x any
+  std::vector<Matrix2d> covariance;  ///< for each place; empty if F contains it
   /// 2 N x p, by the settings of the machine; no columns for a map without one.
-  Eigen::MatrixXd by_parameter;
+  MatrixXd by_parameter;
 };
 
 /// Fails if the map has no answer at a mark.
@@ -231,7 +231,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   at.factor.resize(2 * count, is_joint ? surface->covariance_factor.cols() : 0);
   std::optional<model::ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
-  for (Eigen::Index i = 0; i < count; ++i) {
+  for (Index i = 0; i < count; ++i) {
     const double share = as_double(i) / as_double(count);
     tell(progress, {"the map at the new points", 1, 2, share});
     const MarkPoint mark = marks[as_size(i)];
@@ -274,7 +274,7 @@ class Gathered {
   CheckReadings readings() && {
     const auto rows = std::ssize(residual_mm_);
     const auto places = std::ssize(at_.lengths);
-    readings_.residual_mm = Eigen::Map<const Eigen::VectorXd>(residual_mm_.data(), rows);
+    readings_.residual_mm = Eigen::Map<const VectorXd>(residual_mm_.data(), rows);
     readings_.by_length.resize(rows, 2 * places);
     readings_.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
     ReadingCovariance& covariance = readings_.covariance;
@@ -283,16 +283,16 @@ class Gathered {
     covariance.of_map = narrowed(readings_.by_length * at_.factor);
     readings_.by_parameter = readings_.by_length * at_.by_parameter;
     readings_.lengths_mm.resize(2 * places);
-    for (Eigen::Index i = 0; i < places; ++i)
+    for (Index i = 0; i < places; ++i)
       readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.lengths[as_size(i)]);
     return std::move(readings_);
   }
 
  private:
-  Eigen::Index row() const { return std::ssize(residual_mm_); }
+  Index row() const { return std::ssize(residual_mm_); }
 
   /// The rows that were named last are good or bad together.
-  void add_unit(std::string name, Eigen::MatrixXd covariance) {
+  void add_unit(std::string name, MatrixXd covariance) {
     const auto rows = as_size(covariance.rows());
     readings_.units.push_back(
         {std::move(name), readings_.units.size(), readings_.names.size() - rows, rows});
@@ -300,17 +300,16 @@ class Gathered {
   }
 
   void add_points(const CheckedPart& part, std::size_t first, const std::string& of) {
-    const Eigen::Index before = row();
-    const Eigen::Vector3d laid(part.placement.x_mm, part.placement.y_mm,
-                               part.placement.rotation_rad);
+    const Index before = row();
+    const Vector3d laid(part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
     Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const LengthPoint& point = part.points[i].point;
-      const Eigen::Matrix2d& by_mark = at_.by_mark[first + i];
+      const Matrix2d& by_mark = at_.by_mark[first + i];
       const auto chain = 2 * as_index(first + i);
-      for (Eigen::Index side = 0; side < 2; ++side)
+      for (Index side = 0; side < 2; ++side)
         by_length_.emplace_back(row() + side, chain + side, 1.0);
-      Eigen::Vector2d residual = difference(point.lengths, at_.lengths[first + i]);
+      Vector2d residual = difference(point.lengths, at_.lengths[first + i]);
       if (part.sheet) {
         auto by_own_sheet = by_sheet.middleRows<2>(2 * as_index(i));
         by_own_sheet = by_mark * part.placement.sensitivity(point.mark);
@@ -320,7 +319,7 @@ class Gathered {
       const std::string name = fmt::format("point {}{}", point.index + 1, of);
       for (const char* side : {"left", "right"})
         readings_.names.push_back(fmt::format("{}, {} chain", name, side));
-      Eigen::MatrixXd own = noise_at(part, part.points[i], by_mark);
+      MatrixXd own = noise_at(part, part.points[i], by_mark);
       if (!at_.covariance.empty()) own += at_.covariance[first + i];
       add_unit(name, std::move(own));
     }
@@ -328,9 +327,9 @@ class Gathered {
   }
 
   /// Errors that the rows from one on share, one sigma a column.
-  void add_shared(const Eigen::MatrixXd& by_error, Eigen::Index first_row) {
-    for (Eigen::Index column = 0; column < by_error.cols(); ++column, ++shared_columns_) {
-      for (Eigen::Index i = 0; i < by_error.rows(); ++i) {
+  void add_shared(const MatrixXd& by_error, Index first_row) {
+    for (Index column = 0; column < by_error.cols(); ++column, ++shared_columns_) {
+      for (Index i = 0; i < by_error.rows(); ++i) {
         if (by_error(i, column) != 0.0)
           shared_.emplace_back(first_row + i, shared_columns_, by_error(i, column));
       }
@@ -340,30 +339,28 @@ class Gathered {
   void add_distances(const CheckedPart& part, std::size_t first, const std::string& of) {
     const MeasuredHoles& set = part.distances->set();
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
-    const Eigen::VectorXd residual = part.distances->measured() - geometry.predicted_mm;
-    const Eigen::Index before = row(), count = residual.size();
+    const VectorXd residual = part.distances->measured() - geometry.predicted_mm;
+    const Index before = row(), count = residual.size();
     append_all(residual_mm_, residual);
     // The map's uncertainty at a hole, which all of its distances share.
-    Eigen::MatrixXd by_map =
-        Eigen::MatrixXd::Zero(count, at_.covariance.empty() ? 0 : geometry.by_mark.cols());
+    MatrixXd by_map = MatrixXd::Zero(count, at_.covariance.empty() ? 0 : geometry.by_mark.cols());
     Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
-    for (Eigen::Index k = 0; k < count; ++k) {
+    for (Index k = 0; k < count; ++k) {
       const HoleDistance& distance = set.distances[as_size(k)];
       readings_.names.push_back(words_of(set, distance) + of);
       add_unit(readings_.names.back(),
-               Eigen::MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
+               MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
       std::vector<std::size_t> ends = {distance.from};
       if (!distance.edge) ends.push_back(distance.to);
       for (const std::size_t hole : ends) {
         const auto column = 2 * as_index(hole);
         // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
-        const Eigen::RowVector2d by_length =
+        const RowVector2d by_length =
             -geometry.by_mark.block<1, 2>(k, column) * at_.by_mark[first + hole].inverse();
-        for (const Eigen::Index axis : {0, 1})
+        for (const Index axis : {0, 1})
           by_length_.emplace_back(before + k, 2 * as_index(first) + column + axis, by_length[axis]);
         if (at_.covariance.empty()) continue;
-        const Eigen::Matrix2d root =
-            Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
+        const Matrix2d root = Eigen::LLT<Matrix2d>(at_.covariance[first + hole]).matrixL();
         by_map.block<1, 2>(k, column) = by_length * root;
       }
       // If a sheet moves, a hole's mark on it moves the other way; distances to edges depend on it,
@@ -376,7 +373,7 @@ class Gathered {
     add_shared(set.hole_sigma_mm * geometry.by_mark, before);
     add_shared(by_map, before);
     add_shared(set.sheet.size_sigma_mm * geometry.by_size, before);
-    add_shared(Eigen::VectorXd::Constant(count, tape_zero_sigma_mm(set.tape)), before);
+    add_shared(VectorXd::Constant(count, tape_zero_sigma_mm(set.tape)), before);
     if (part.sheet) add_shared(by_sheet * part.sheet->sigma().asDiagonal(), before);
   }
 
@@ -385,7 +382,7 @@ class Gathered {
   std::vector<double> residual_mm_;
   Entries by_length_;
   Entries shared_;
-  Eigen::Index shared_columns_ = 0;
+  Index shared_columns_ = 0;
 };
 
 }  // namespace

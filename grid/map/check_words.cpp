@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -121,8 +122,8 @@ Check judged(const CheckReadings& readings, const CheckWords& words) {
   decide(check);
   for (std::size_t i = 0; i < readings.zero_mm.size(); ++i)
     check.new_zero_mm.push_back(readings.zero_mm[i] + check.hypotheses.front().added(i).value);
-  const Eigen::VectorXd variance = readings.covariance.diagonal();
-  for (Eigen::Index k = 0; k < readings.residual_mm.size(); ++k) {
+  const VectorXd variance = readings.covariance.diagonal();
+  for (Index k = 0; k < readings.residual_mm.size(); ++k) {
     check.residuals.push_back(
         {readings.names[as_size(k)], readings.residual_mm[k], std::sqrt(variance[k])});
   }

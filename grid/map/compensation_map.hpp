@@ -13,7 +13,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -25,6 +24,7 @@
 #include <variant>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/map_field.hpp"
 #include "grid/plane_vectors.hpp"
 
@@ -72,7 +72,7 @@ class CompensationMap {
     answer.covariance = found->spread_mm * found->spread_mm.transpose();
     answer.covariance *= std::pow(spread_factor(answer.status), 2);
     answer.sigma = {std::sqrt(answer.covariance(0, 0)), std::sqrt(answer.covariance(1, 1))};
-    const Eigen::Matrix2d to_tool = found->here.mark_jacobian.inverse();
+    const Matrix2d to_tool = found->here.mark_jacobian.inverse();
     answer.tool_sigma_mm = std::sqrt((to_tool * answer.covariance * to_tool.transpose()).trace());
     return answer;
   }
@@ -99,8 +99,8 @@ class CompensationMap {
       const auto found = field->at(mark);
       if (!found) return tl::unexpected(found.error());
       const MapLengths& here = found->here;
-      const Eigen::Vector2d missing = difference(wanted, here.lengths);
-      const Eigen::Vector2d move = here.mark_jacobian.inverse() * missing;
+      const Vector2d missing = difference(wanted, here.lengths);
+      const Vector2d move = here.mark_jacobian.inverse() * missing;
       if (!move.allFinite()) break;
       // A step may leave the domain temporarily, but not to where the chains cannot hold the sled.
       mark = within({mark.x_mm + move.x(), mark.y_mm + move.y()}, 50.0);
@@ -121,9 +121,9 @@ class CompensationMap {
     return refused ? MapStatus::outside : status;
   }
   /// As in LengthMap; no columns where lengths() has no answer.
-  Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const {
+  Matrix2Xd tool_spread(model::MarkPoint mark) const {
     const auto found = with_spread(mark);
-    if (!found) return Eigen::Matrix2Xd(2, 0);
+    if (!found) return Matrix2Xd(2, 0);
     // A length that is truly longer leaves the tool short of the mark.
     return -spread_factor(area_.status(mark)) * found->here.mark_jacobian.inverse() *
            found->spread_mm;

@@ -20,12 +20,12 @@ constexpr int kColumns = 25;
 constexpr int kRows = 13;
 
 /// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
-std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map, BedPoint at,
-                                           model::ChainLengths here, BedPoint middle) {
+std::optional<Matrix2d> jacobian_at(const LengthMap& map, BedPoint at, model::ChainLengths here,
+                                    BedPoint middle) {
   // The error of a one-sided step is half of it over a chain's length, 5e-6; that of rounding 1e-7.
   constexpr double kStepMm = 0.01;
-  Eigen::Matrix2d jacobian;
-  for (const Eigen::Index axis : {0, 1}) {
+  Matrix2d jacobian;
+  for (const Index axis : {0, 1}) {
     BedPoint there = at;
     double& moved = axis == 0 ? there.x_mm : there.y_mm;
     const double step = (axis == 0 ? middle.x_mm : middle.y_mm) < moved ? -kStepMm : kStepMm;
@@ -83,9 +83,9 @@ PaidOut paid_out_by(const model::Machine& machine) {
   };
 }
 
-std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
-                                                 const std::vector<MeasuredPlace>& places) {
-  Eigen::VectorXd errors(2 * std::ssize(places));
+std::optional<VectorXd> controller_errors(const PaidOut& paid_out,
+                                          const std::vector<MeasuredPlace>& places) {
+  VectorXd errors(2 * std::ssize(places));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto lengths = paid_out(places[i].commanded);
     if (!lengths) return std::nullopt;
@@ -96,12 +96,12 @@ std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
 }
 
 ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
-                               const Eigen::VectorXd& errors_mm) {
+                               const VectorXd& errors_mm) {
   LargestError largest;
   double squares_mm2 = 0.0;
   int within = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Eigen::Vector2d expected_mm = errors_mm.segment<2>(2 * as_index(i));
+    const Vector2d expected_mm = errors_mm.segment<2>(2 * as_index(i));
     largest.add(expected_mm, places[i].spread_mm);
     if (places[i].is_on_edge) continue;
     squares_mm2 += expected_mm.squaredNorm() + places[i].spread_mm.squaredNorm();
@@ -136,7 +136,7 @@ std::optional<ErrorSummary> error_in_use(const CompensationMap& map) {
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
   if (places.empty()) return;
-  accuracy.expected_tool = summary_of_errors(places, Eigen::VectorXd::Zero(2 * std::ssize(places)));
+  accuracy.expected_tool = summary_of_errors(places, VectorXd::Zero(2 * std::ssize(places)));
   // A place's mirror image differs by less, through rounding: the first is kept.
   constexpr double kWorse = 1.0 + 1e-6;
   double worst_mm = -1.0;

@@ -22,11 +22,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/map/map_in_frame.hpp"
 
@@ -37,9 +37,9 @@ struct MeasuredPlace {
   model::BedPoint commanded;
   model::ChainLengths lengths;
   /// J^-1 of (1).
-  Eigen::Matrix2d to_tool;
+  Matrix2d to_tool;
   /// S of (1).
-  Eigen::Matrix2Xd spread_mm;
+  Matrix2Xd spread_mm;
   bool is_on_edge = false;
 };
 
@@ -57,12 +57,11 @@ PaidOut paid_out_by(const model::Machine& machine);
 
 /// The first part of (1) at every place, x and y one below the other; empty if the controller
 /// cannot go to one.
-std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
-                                                 const std::vector<MeasuredPlace>& places);
+std::optional<VectorXd> controller_errors(const PaidOut& paid_out,
+                                          const std::vector<MeasuredPlace>& places);
 
 /// For (1) with such a first part. \pre There is a place within the hull.
-ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
-                               const Eigen::VectorXd& errors_mm);
+ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places, const VectorXd& errors_mm);
 
 /// The machine's error as used today: the controller with its settings in force is sent to the
 /// marks' numbers, the sheet being where it was. Empty for a map without a machine, for an ideal

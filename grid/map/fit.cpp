@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -24,7 +25,7 @@ using model::Side;
 
 /// A full grid and its values.
 struct Lattice : LatticeNodes {
-  model::PerSide<Eigen::MatrixXd> lengths_mm;
+  model::PerSide<MatrixXd> lengths_mm;
 };
 
 /// Repeats are averaged.
@@ -33,8 +34,8 @@ Lattice lattice_of(const std::vector<LengthPoint>& points) {
   for (const LengthPoint& point : points) marks.push_back(point.mark);
   Lattice lattice{lattice_nodes(marks), {}};
   for (const Side side : model::kSides) {
-    Eigen::MatrixXd& lengths_mm = lattice.lengths_mm[side];
-    lengths_mm = Eigen::MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
+    MatrixXd& lengths_mm = lattice.lengths_mm[side];
+    lengths_mm = MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto [ix, iy] = lattice.of_mark[i];
       lengths_mm(ix, iy) += points[i].lengths[side];
@@ -66,8 +67,8 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
     const std::vector<double> y_kept = columns ? lattice.y_nodes_mm : without(lines, line);
     const auto axes = std::make_shared<const interp::TensorAxes>(x_kept, y_kept, ends);
     const auto at = as_index(line);
-    const auto kept = [&](const Eigen::MatrixXd& all) {
-      Eigen::MatrixXd values(std::ssize(axes->x), std::ssize(axes->y));
+    const auto kept = [&](const MatrixXd& all) {
+      MatrixXd values(std::ssize(axes->x), std::ssize(axes->y));
       if (columns) {
         values << all.topRows(at), all.bottomRows(all.rows() - at - 1);
       } else {
@@ -75,8 +76,8 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
       }
       return values;
     };
-    const auto spline = [&](const Eigen::MatrixXd& all) {
-      const Eigen::MatrixXd values = kept(all);
+    const auto spline = [&](const MatrixXd& all) {
+      const MatrixXd values = kept(all);
       return interp::TensorSpline(axes, values, parabola_slopes(x_kept, y_kept, values));
     };
     const interp::TensorSpline left = spline(lattice.lengths_mm.left);
@@ -105,8 +106,8 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
 }
 
 tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
-  const Eigen::Index nx = lattice.visits.rows();
-  const Eigen::Index ny = lattice.visits.cols();
+  const Index nx = lattice.visits.rows();
+  const Index ny = lattice.visits.cols();
   const auto missing = (lattice.visits.array() == 0).count();
   if (missing == 0 && nx >= 2 && ny >= 2) return {};
   return failed(
@@ -161,7 +162,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
     MapPoint result;
     result.mark = point.mark;
     result.lengths = point.lengths;
-    const Eigen::Vector2d chain = difference(point.lengths, here->lengths);
+    const Vector2d chain = difference(point.lengths, here->lengths);
     result.mapped_mm = -(here->mark_jacobian.inverse() * chain);
     map.points.push_back(result);
   }

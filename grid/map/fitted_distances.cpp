@@ -8,6 +8,7 @@
 #include <map>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 
@@ -70,8 +71,8 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
                              std::sqrt(unit.left_out_covariance(0, 0)), unit.is_rejected()});
   }
   const auto holes = std::ssize(set.holes);
-  const Eigen::VectorXd shift = own.nuisance.tail(2 * holes);
-  for (Eigen::Index i = 0; i < holes; ++i) {
+  const VectorXd shift = own.nuisance.tail(2 * holes);
+  for (Index i = 0; i < holes; ++i) {
     const estimation::PlaceEstimate& place = own.places[as_size(i)];
     fit.holes.push_back({distances.places()[as_size(i)].lengths,
                          place.as_stated,
@@ -79,7 +80,7 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
                          {place.mark.x_mm + shift[2 * i], place.mark.y_mm + shift[2 * i + 1]}});
   }
   // After the sheet's size (tape_distances.hpp).
-  constexpr Eigen::Index kTapeZero = 2;
+  constexpr Index kTapeZero = 2;
   if (tape_zero_sigma_mm(set.tape) > 0.0)
     fit.tape_zero = FoundTapeZero{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
   return fit;

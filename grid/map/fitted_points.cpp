@@ -14,14 +14,14 @@ namespace {
 
 /// A chain residual (read minus predicted) as an error of the tool: where it landed minus where the
 /// model puts it.
-Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vector2d& chain_mm) {
+Vector2d to_tool(const Matrix2d& mark_jacobian, const Vector2d& chain_mm) {
   return -(mark_jacobian.inverse() * chain_mm);
 }
 
 /// On the sheet. The controller uses neither the stated machine nor the catenary; a machine that
 /// reaches its commanded places is right.
-Eigen::Vector2d landed_minus_sent(model::BedPoint commanded, const model::SheetPlacement& sheet,
-                                  model::MarkPoint mark) {
+Vector2d landed_minus_sent(model::BedPoint commanded, const model::SheetPlacement& sheet,
+                           model::MarkPoint mark) {
   const model::BedPoint place = sheet.to_bed(mark);
   return sheet.rotation().transpose() * difference(place, commanded);
 }
@@ -45,10 +45,10 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
     for (std::size_t i = 0; i < good.size(); ++i) {
       const auto row = 2 * as_index(i);
       const auto& commanded = good[i].commanded;
-      const Eigen::Vector2d residual =
-          commanded ? -line->places[i].by_mark * landed_minus_sent(*commanded, sheet, good[i].mark)
-                    : Eigen::Vector2d(readings.measured().segment(row, 2) -
-                                      line->predicted.segment(row, 2));
+      const Vector2d residual =
+          commanded
+              ? -line->places[i].by_mark * landed_minus_sent(*commanded, sheet, good[i].mark)
+              : Vector2d(readings.measured().segment(row, 2) - line->predicted.segment(row, 2));
       sum.add(residual, line->by_setting.middleRows(row, 2), line->units[i].covariance.inverse());
     }
     return true;
@@ -57,11 +57,11 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
 
 /// Where the tool landed minus where the uncalibrated machine puts it: the command, or the position
 /// of the lengths; zero if that machine has no pose.
-Eigen::Vector2d error_as_stated(const model::ReadingModel& model,
-                                const model::SheetPlacement& sheet, const LengthPoint& point) {
+Vector2d error_as_stated(const model::ReadingModel& model, const model::SheetPlacement& sheet,
+                         const LengthPoint& point) {
   if (point.commanded) return landed_minus_sent(*point.commanded, sheet, point.mark);
   const auto reading = model.at(sheet.to_bed(point.mark));
-  if (!reading) return Eigen::Vector2d::Zero();
+  if (!reading) return Vector2d::Zero();
   return to_tool(reading->position_jacobian * sheet.rotation(),
                  difference(point.lengths, reading->lengths));
 }

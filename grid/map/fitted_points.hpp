@@ -3,9 +3,9 @@
 /// The results of an estimate (grid/estimation) for points with their chain lengths.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/observation/length_points.hpp"
@@ -15,7 +15,7 @@ namespace chaintrue::grid {
 /// One point after the fit, with its residuals in the chains.
 struct FittedPoint : estimation::UnitEstimate {
   LengthPoint point;
-  Eigen::Matrix2d mark_jacobian;  ///< d(lengths)/d(mark)
+  Matrix2d mark_jacobian;  ///< d(lengths)/d(mark)
 };
 
 /// The points that are the estimate's observation of that number.
@@ -33,7 +33,7 @@ std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points, const M
 struct LatticeFit {
   LatticeResidual residual;
   /// Measured minus predicted by the lines through the point, in the order of the points.
-  std::vector<Eigen::Vector2d> left_out_residual_mm;
+  std::vector<Vector2d> left_out_residual_mm;
 };
 
 /// Interpolates the residuals of an estimate without its penalised surface. Empty unless the points are

@@ -19,13 +19,13 @@ namespace chaintrue::grid {
 namespace {
 
 /// The quantile's level is then known to 1.1 %: sqrt(0.95 * 0.05 / 400).
-constexpr Eigen::Index kDraws = 400;
+constexpr Index kDraws = 400;
 constexpr double kLevel = 0.95;
 
-Eigen::MatrixXd drawn(Eigen::Index directions) {
+MatrixXd drawn(Index directions) {
   constexpr std::uint64_t kSeed = 95;
   Random random(kSeed);
-  Eigen::MatrixXd draws(directions, kDraws);
+  MatrixXd draws(directions, kDraws);
   for (double& z : draws.reshaped()) z = random.normal();
   return draws;
 }
@@ -37,21 +37,20 @@ ModelSurface& surface_of(MapContents& contents) {
 }
 
 /// Differences of the lengths at one place, a row for each chain; empty if a map does not answer.
-Eigen::Matrix2Xd differences_at(const std::vector<MapDifference>& differences,
-                                model::MarkPoint mark) {
-  Eigen::Matrix2Xd at(2, std::ssize(differences));
+Matrix2Xd differences_at(const std::vector<MapDifference>& differences, model::MarkPoint mark) {
+  Matrix2Xd at(2, std::ssize(differences));
   for (std::size_t k = 0; k < differences.size(); ++k) {
     const auto from = differences[k].from.lengths(mark);
     const auto to = differences[k].to.lengths(mark);
-    if (!from || !to) return Eigen::Matrix2Xd(2, 0);
+    if (!from || !to) return Matrix2Xd(2, 0);
     at.col(as_index(k)) = differences[k].share * difference(to->lengths, from->lengths);
   }
   return at;
 }
 
 /// Spline coefficients of the differences, left and right one below the other, a column each.
-Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis,
-                           const std::vector<MapDifference>& differences) {
+MatrixXd on_splines(const interp::BsplineBasis& basis,
+                    const std::vector<MapDifference>& differences) {
   // Two places for each function of an axis determine the splines; the ridge holds those that no place is near.
   constexpr int kPerFunction = 2;
   constexpr double kRidge = 1e-6;
@@ -59,28 +58,28 @@ Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis,
       raster(basis.rectangle(), kPerFunction * static_cast<int>(basis.columns_x()),
              kPerFunction * static_cast<int>(basis.columns_y()), RasterOf::nodes);
   const auto count = std::ssize(differences);
-  Eigen::MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
-  Eigen::Index used = 0;
+  MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
+  Index used = 0;
   for (const model::MarkPoint& mark : marks) {
-    const Eigen::Matrix2Xd at = differences_at(differences, mark);
+    const Matrix2Xd at = differences_at(differences, mark);
     if (at.cols() != count) continue;
     design.row(used) = basis.row(mark.x_mm, mark.y_mm);
     response.row(used++) = at.reshaped().transpose();
   }
-  Eigen::MatrixXd normal = linear::gram(design.topRows(used));
+  MatrixXd normal = linear::gram(design.topRows(used));
   normal.diagonal().array() += kRidge;
-  const Eigen::MatrixXd right =
+  const MatrixXd right =
       linear::product(linear::transposed(design.topRows(used)), response.topRows(used));
   return linear::Cholesky(std::move(normal)).solve(right).reshaped(2 * basis.size(), count);
 }
 
 }  // namespace
 
-void LargestError::add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2Xd& spread_mm) {
-  constexpr Eigen::Index kTogether = 24;
+void LargestError::add(const Vector2d& expected_mm, const Matrix2Xd& spread_mm) {
+  constexpr Index kTogether = 24;
   if (taken_mm2_.size() == 0) {
     draws_ = drawn(spread_mm.cols());
-    taken_mm2_ = Eigen::RowVectorXd::Zero(kDraws);
+    taken_mm2_ = RowVectorXd::Zero(kDraws);
     expected_mm_.resize(2 * kTogether);
     spread_mm_.resize(2 * kTogether, spread_mm.cols());
   }
@@ -93,19 +92,19 @@ void LargestError::add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2X
   waiting_ = 0;
 }
 
-Eigen::RowVectorXd LargestError::largest_mm2() const {
-  Eigen::MatrixXd errors = linear::product(spread_mm_.topRows(2 * waiting_), draws_);
+RowVectorXd LargestError::largest_mm2() const {
+  MatrixXd errors = linear::product(spread_mm_.topRows(2 * waiting_), draws_);
   errors.colwise() += expected_mm_.head(2 * waiting_);
-  Eigen::RowVectorXd largest = taken_mm2_;
-  for (Eigen::Index k = 0; k < waiting_; ++k)
+  RowVectorXd largest = taken_mm2_;
+  for (Index k = 0; k < waiting_; ++k)
     largest = largest.cwiseMax(errors.middleRows<2>(2 * k).colwise().squaredNorm());
   return largest;
 }
 
 double LargestError::bound_mm() const {
   if (taken_mm2_.size() == 0) return 0.0;
-  Eigen::RowVectorXd sorted = largest_mm2();
-  const auto at = static_cast<Eigen::Index>(kLevel * static_cast<double>(kDraws));
+  RowVectorXd sorted = largest_mm2();
+  const auto at = static_cast<Index>(kLevel * static_cast<double>(kDraws));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
   return std::sqrt(sorted[at]);
 }
@@ -121,8 +120,8 @@ CompensationMap with_differences(const CompensationMap& map,
                                  const std::vector<MapDifference>& differences) {
   MapContents contents = map.contents();
   ModelSurface& surface = surface_of(contents);
-  const Eigen::MatrixXd splines = on_splines(surface.residual.basis, differences);
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(surface.columns.total(), splines.cols());
+  const MatrixXd splines = on_splines(surface.residual.basis, differences);
+  MatrixXd directions = MatrixXd::Zero(surface.columns.total(), splines.cols());
   directions.middleRows(surface.columns.spline(model::Side::left), splines.rows()) = splines;
   surface.covariance_factor =
       lower_factor(linear::outer(surface.covariance_factor) + linear::outer(directions));

@@ -19,9 +19,9 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
@@ -53,18 +53,18 @@ struct MapDifference {
 class LargestError {
  public:
   /// \throws std::invalid_argument if the number of columns of `spread_mm` changes.
-  void add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2Xd& spread_mm);
+  void add(const Vector2d& expected_mm, const Matrix2Xd& spread_mm);
   /// 0 without places.
   double bound_mm() const;
 
  private:
   /// Of each draw, with the places that wait.
-  Eigen::RowVectorXd largest_mm2() const;
-  Eigen::MatrixXd draws_;         ///< of z, a column each
-  Eigen::RowVectorXd taken_mm2_;  ///< largest of each draw without those
-  Eigen::VectorXd expected_mm_;   ///< m of places that wait, so that their products are one
-  Eigen::MatrixXd spread_mm_;     ///< S, the same
-  Eigen::Index waiting_ = 0;
+  RowVectorXd largest_mm2() const;
+  MatrixXd draws_;         ///< of z, a column each
+  RowVectorXd taken_mm2_;  ///< largest of each draw without those
+  VectorXd expected_mm_;   ///< m of places that wait, so that their products are one
+  MatrixXd spread_mm_;     ///< S, the same
+  Index waiting_ = 0;
 };
 
 }  // namespace chaintrue::grid

@@ -38,7 +38,7 @@ std::vector<double> lines_at(std::vector<double> coordinates_mm) {
 }
 
 /// The line of one of the coordinates that formed the lines.
-Eigen::Index line_at(const std::vector<double>& lines_mm, double coordinate_mm) {
+Index line_at(const std::vector<double>& lines_mm, double coordinate_mm) {
   return std::lower_bound(lines_mm.begin(), lines_mm.end(), coordinate_mm - kOnLineMm) -
          lines_mm.begin();
 }
@@ -46,26 +46,25 @@ Eigen::Index line_at(const std::vector<double>& lines_mm, double coordinate_mm) 
 /// The node of each point of the fit; rejected points and places without a point are empty nodes.
 std::optional<LatticeNodes> places_of(const std::vector<FittedPoint>& points) {
   std::vector<model::MarkPoint> marks;
-  Eigen::Index good = 0;
+  Index good = 0;
   for (const FittedPoint& point : points) {
     marks.push_back(point.point.mark);
     good += point.is_rejected() ? 0 : 1;
   }
   LatticeNodes places = lattice_nodes(marks);
-  constexpr Eigen::Index kFewestLines = 4;
-  const Eigen::Index nodes = places.visits.size();
+  constexpr Index kFewestLines = 4;
+  const Index nodes = places.visits.size();
   if (std::min(places.visits.rows(), places.visits.cols()) < kFewestLines) return std::nullopt;
   if (places.visits.maxCoeff() > 1 || 10 * (nodes - good) > nodes) return std::nullopt;
   return places;
 }
 
 /// Measured minus the calibrated machine with its chains' scales, at every node; empty ones NaN.
-model::PerSide<Eigen::MatrixXd> left_by_machine(const estimation::Estimate& estimate,
-                                                const std::vector<FittedPoint>& points,
-                                                const LatticeNodes& places) {
-  const Eigen::MatrixXd none =
-      Eigen::MatrixXd::Constant(places.visits.rows(), places.visits.cols(), kEmpty);
-  model::PerSide<Eigen::MatrixXd> values{none, none};
+model::PerSide<MatrixXd> left_by_machine(const estimation::Estimate& estimate,
+                                         const std::vector<FittedPoint>& points,
+                                         const LatticeNodes& places) {
+  const MatrixXd none = MatrixXd::Constant(places.visits.rows(), places.visits.cols(), kEmpty);
+  model::PerSide<MatrixXd> values{none, none};
   const model::ReadingModel model(estimate.machine);
   const model::SheetPlacement& sheet = estimate.observations.front().sheet;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -84,8 +83,7 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const estimation::Estimate& esti
 
 /// The longer line's prediction of a left-out node, NaN if it cannot be filled: the measure of the
 /// surface's error between the nodes.
-double predicted(const LatticeNodes& places, Eigen::MatrixXd values, Eigen::Index ix,
-                 Eigen::Index iy) {
+double predicted(const LatticeNodes& places, MatrixXd values, Index ix, Index iy) {
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
   if (!filled) return kEmpty;
@@ -100,13 +98,13 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
                                       const std::vector<FittedPoint>& points) {
   const auto places = places_of(points);
   if (!places) return std::nullopt;
-  const model::PerSide<Eigen::MatrixXd> values = left_by_machine(estimate, points, *places);
+  const model::PerSide<MatrixXd> values = left_by_machine(estimate, points, *places);
   LatticeFit lattice;
-  std::vector<Eigen::Vector2d> errors_here;
-  std::vector<Eigen::Vector2d> errors_there;
+  std::vector<Vector2d> errors_here;
+  std::vector<Vector2d> errors_there;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [ix, iy] = places->of_mark[i];
-    Eigen::Vector2d residual = points[i].left_out;
+    Vector2d residual = points[i].left_out;
     if (!points[i].is_rejected()) {
       errors_there.push_back(residual);
       residual = {values.left(ix, iy) - predicted(*places, values.left, ix, iy),
@@ -122,7 +120,7 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;
   lattice.residual.y_nodes_mm = places->y_nodes_mm;
-  lattice.residual.doubt_mm = Eigen::MatrixXd::Zero(values.left.rows(), values.left.cols());
+  lattice.residual.doubt_mm = MatrixXd::Zero(values.left.rows(), values.left.cols());
   for (Side side : model::kSides) {
     const auto filled = interp::fill_missing(places->x_nodes_mm, places->y_nodes_mm, values[side]);
     if (!filled) return std::nullopt;

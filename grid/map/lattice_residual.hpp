@@ -13,10 +13,10 @@
 /// through them (interp/missing_nodes.hpp).
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -24,9 +24,9 @@ namespace chaintrue::grid {
 struct LatticeResidual {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;
-  model::PerSide<Eigen::MatrixXd> values_mm;  ///< (ix, iy)
+  model::PerSide<MatrixXd> values_mm;  ///< (ix, iy)
   /// One sigma of a node's value beyond the readings' noise; zero if it was measured.
-  Eigen::MatrixXd doubt_mm;
+  MatrixXd doubt_mm;
   /// One sigma between the nodes, from predictions of left-out nodes by their lines.
   double interpolation_sigma_mm = 0.0;
 };
@@ -36,7 +36,7 @@ struct LatticeResidual {
 struct LatticeNodes {
   std::vector<double> x_nodes_mm;  ///< rising
   std::vector<double> y_nodes_mm;
-  std::vector<std::array<Eigen::Index, 2>> of_mark;
+  std::vector<std::array<Index, 2>> of_mark;
   Eigen::MatrixXi visits;  ///< marks at each node, (ix, iy)
 };
 LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks);

@@ -12,12 +12,12 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <tl/expected.hpp>
 
+#include "grid/eigen.hpp"
 #include "grid/map/measured_area.hpp"
 #include "interp/surface.hpp"
 #include "model/failure.hpp"
@@ -37,8 +37,8 @@ using MapFailure = Failure<MapReason>;
 [[nodiscard]] MapFailure unreachable(const model::MechanismFailure& why);
 
 struct LengthsAnswer {
-  Eigen::VectorXd lengths_mm;  ///< in the order of the names
-  model::ChainLengths sigma;   ///< 1 sigma of the first two
+  VectorXd lengths_mm;        ///< in the order of the names
+  model::ChainLengths sigma;  ///< 1 sigma of the first two
   /// Root of the summed variances of the tool's x and y; empty: not known.
   std::optional<double> tool_sigma_mm;
   MapStatus status = MapStatus::inside;
@@ -62,9 +62,7 @@ class LengthMap {
   /// Uncertainty of the tool sent to a point which lengths() answers: x and y, mm, one column for
   /// one sigma of each direction of the posterior, the same directions everywhere. No columns if
   /// nothing is uncertain.
-  virtual Eigen::Matrix2Xd tool_spread(model::BedPoint /*point*/) const {
-    return Eigen::Matrix2Xd(2, 0);
-  }
+  virtual Matrix2Xd tool_spread(model::BedPoint /*point*/) const { return Matrix2Xd(2, 0); }
   /// Where lengths() may answer.
   virtual const interp::Rectangle& domain() const = 0;
 

@@ -28,13 +28,12 @@ void name_rows(const observation::BeltLengthReadings& observed, const model::Mec
 }
 
 /// The effect of a millimetre of each length at a place on the rows of its unit.
-Eigen::MatrixXd by_length_of(const observation::LengthsAtPlace& place,
-                             const observation::UnitState& unit) {
+MatrixXd by_length_of(const observation::LengthsAtPlace& place,
+                      const observation::UnitState& unit) {
   if (!place.known) return unit.by_reading;
-  Eigen::MatrixXd by_length =
-      Eigen::MatrixXd::Zero(unit.covariance.rows(), place.lengths_mm.size());
-  Eigen::Index row = 0;
-  for (Eigen::Index i = 0; i < by_length.cols(); ++i) {
+  MatrixXd by_length = MatrixXd::Zero(unit.covariance.rows(), place.lengths_mm.size());
+  Index row = 0;
+  for (Index i = 0; i < by_length.cols(); ++i) {
     if (place.counts(i)) by_length(row++, i) = 1.0;
   }
   return by_length;
@@ -59,16 +58,16 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   readings.lengths_mm.resize(lengths * units);
   readings.by_length.resize(observed.rows(), lengths * units);
   std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index u = 0; u < units; ++u) {
+  for (Index u = 0; u < units; ++u) {
     const observation::UnitState& unit = line->units[as_size(u)];
     const std::size_t at = observed.place_of(as_size(u));
     const observation::LengthsAtPlace& place = observed.readings()[at];
     // The place was found above.
     readings.lengths_mm.segment(lengths * u, lengths) =
         place.lengths_mm - observed.block_line(view, {{at}, {}}, false)->residual_mm;
-    const Eigen::MatrixXd by_length = by_length_of(place, unit);
-    for (Eigen::Index i = 0; i < by_length.rows(); ++i) {
-      for (Eigen::Index k = 0; k < lengths; ++k)
+    const MatrixXd by_length = by_length_of(place, unit);
+    for (Index i = 0; i < by_length.rows(); ++i) {
+      for (Index k = 0; k < lengths; ++k)
         entries.emplace_back(observed.units()[as_size(u)].first_row + i, lengths * u + k,
                              by_length(i, k));
     }

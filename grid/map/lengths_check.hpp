@@ -13,11 +13,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/check_words.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "grid/statistics.hpp"
@@ -27,8 +27,8 @@ namespace chaintrue::grid {
 /// A mechanism with its calibrated values and their covariance.
 struct FittedMechanism {
   std::shared_ptr<const model::Mechanism> mechanism;
-  Eigen::MatrixXd covariance;  ///< of its parameters
-  double length_mm = 0.0;      ///< one sigma of a length that is read
+  MatrixXd covariance;     ///< of its parameters
+  double length_mm = 0.0;  ///< one sigma of a length that is read
   /// For the fit that found the noise; infinite: it is known.
   double noise_dof = kInfinity;
   double position_mm = 0.0;  ///< one sigma of a known position, on each axis

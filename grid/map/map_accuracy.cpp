@@ -14,7 +14,7 @@ HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
   std::vector<double> chain, tool, x, y;
   for (const HeldOutResidual& residual : residuals) {
     append_all(chain, residual.chain_mm);
-    const Eigen::Vector2d at_tool = residual.mark_jacobian.inverse() * residual.chain_mm;
+    const Vector2d at_tool = residual.mark_jacobian.inverse() * residual.chain_mm;
     tool.push_back(at_tool.norm());
     x.push_back(at_tool.x());
     y.push_back(at_tool.y());
@@ -29,7 +29,7 @@ double noise_at_tool_mm(const CompensationMap& map) {
   for (const MapPoint& point : map.contents().points) {
     const auto lengths = map.lengths(point.mark);
     if (point.bad || !lengths) continue;
-    const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
+    const Matrix2d to_tool = lengths->mark_jacobian.inverse();
     // Stated noise is kept; unstated noise is known only through the estimated factor.
     const double factor = noise.source == NoiseSource::stated ? 1.0 : noise.factor_found;
     variance_mm2 += factor * factor *

@@ -3,17 +3,17 @@
 /// A finished map's statements about its points: held-out errors, their noise and the mirror claim.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
 
 /// One held-out residual in the chains, and the derivative that carries it to the tool.
 struct HeldOutResidual {
-  Eigen::Vector2d chain_mm;
-  Eigen::Matrix2d mark_jacobian;
+  Vector2d chain_mm;
+  Matrix2d mark_jacobian;
 };
 
 /// Zero everywhere for no residuals.

@@ -3,13 +3,13 @@
 /// The content of a compensation map, and its answers.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/map/lattice_residual.hpp"
@@ -76,10 +76,10 @@ struct MapPoint {
   bool bad = false;
   /// Left-out residual in sigmas, both chains together.
   double distance_sigmas = 0.0;
-  Eigen::Vector2d as_stated_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d sheet_placed_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d mapped_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d left_out_mm = Eigen::Vector2d::Zero();
+  Vector2d as_stated_mm = Vector2d::Zero();
+  Vector2d sheet_placed_mm = Vector2d::Zero();
+  Vector2d mapped_mm = Vector2d::Zero();
+  Vector2d left_out_mm = Vector2d::Zero();
 };
 
 /// Test of the claim that R is L mirrored (seeds/001) against the points: R measured at (x, y)
@@ -113,7 +113,7 @@ struct ModelSurface {
   FitColumns columns;
   std::vector<model::Setting> settings;
   /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
-  Eigen::MatrixXd covariance_factor;
+  MatrixXd covariance_factor;
   /// Replaces the residual's splines (not its chain scales) if noise-free readings lie on a
   /// lattice.
   std::optional<LatticeResidual> lattice = std::nullopt;
@@ -123,7 +123,7 @@ struct ModelSurface {
 struct DirectSurface {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;
-  model::PerSide<Eigen::MatrixXd> lengths_mm;  ///< (ix, iy)
+  model::PerSide<MatrixXd> lengths_mm;  ///< (ix, iy)
   interp::TensorEnds ends;
   /// Estimated by leaving out inner lines.
   double interpolation_sigma_mm = 0.0;
@@ -170,9 +170,9 @@ struct MapAnswer {
   model::ChainLengths lengths;
   model::ChainLengths sigma;
   /// For the two lengths, including their correlation.
-  Eigen::Matrix2d covariance;
+  Matrix2d covariance;
   /// d(left, right)/d(mark)
-  Eigen::Matrix2d mark_jacobian;
+  Matrix2d mark_jacobian;
   /// Root of the summed variances of the tool's x and y.
   double tool_sigma_mm = 0.0;
   MapStatus status = MapStatus::inside;
@@ -181,14 +181,14 @@ struct MapAnswer {
 /// Lengths and their derivative by the mark.
 struct MapLengths {
   model::ChainLengths lengths;
-  Eigen::Matrix2d mark_jacobian;
+  Matrix2d mark_jacobian;
 };
 
 /// A row for each length, and a column for one sigma of each uncertain direction; the directions are
 /// the same at every mark within the points.
 struct MapSpread {
   MapLengths here;
-  Eigen::Matrix2Xd spread_mm;
+  Matrix2Xd spread_mm;
 };
 
 }  // namespace chaintrue::grid

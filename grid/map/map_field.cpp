@@ -19,7 +19,7 @@ using model::Side;
 /// One chain's splines of a ResidualSurface.
 class SplineSurface final : public interp::Surface {
  public:
-  SplineSurface(const interp::BsplineBasis& basis, Eigen::VectorXd coefficients)
+  SplineSurface(const interp::BsplineBasis& basis, VectorXd coefficients)
       : basis_(basis), coefficients_(std::move(coefficients)) {}
   interp::ValueGradient at(double x, double y) const override {
     return basis_.evaluate(coefficients_, x, y);
@@ -28,7 +28,7 @@ class SplineSurface final : public interp::Surface {
 
  private:
   interp::BsplineBasis basis_;
-  Eigen::VectorXd coefficients_;
+  VectorXd coefficients_;
 };
 
 /// On a calibrated machine with penalised surfaces: G F, with the two sparse rows G of the design.
@@ -42,16 +42,16 @@ class DesignSpread {
         basis_(surface.residual.basis),
         factor_(surface.covariance_factor.transpose()) {}
 
-  Eigen::Matrix2Xd operator()(MarkPoint mark, const MapLengths& /*here*/,
-                              const model::PointReading* reading) const {
+  Matrix2Xd operator()(MarkPoint mark, const MapLengths& /*here*/,
+                       const model::PointReading* reading) const {
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading->position_jacobian * sheet_.sensitivity(mark);
     Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
     for (std::size_t i = 0; i < settings_.size(); ++i) {
       const Setting setting = settings_[i];
-      const Eigen::Vector2d slope =
-          model::is_of_sheet(setting) ? Eigen::Vector2d(by_sheet.col(model::sheet_column(setting)))
-                                      : model_.sensitivity(*reading, setting);
+      const Vector2d slope = model::is_of_sheet(setting)
+                                 ? Vector2d(by_sheet.col(model::sheet_column(setting)))
+                                 : model_.sensitivity(*reading, setting);
       add(as_index(i), slope[0], spread.col(0));
       add(as_index(i), slope[1], spread.col(1));
     }
@@ -67,7 +67,7 @@ class DesignSpread {
 
  private:
   /// F is lower triangular: the column of F' ends at the diagonal.
-  void add(Eigen::Index column, double slope, Eigen::Ref<Eigen::VectorXd> sum) const {
+  void add(Index column, double slope, Eigen::Ref<VectorXd> sum) const {
     sum.head(column + 1) += slope * factor_.col(column).head(column + 1);
   }
 
@@ -76,7 +76,7 @@ class DesignSpread {
   std::vector<Setting> settings_;
   FitColumns columns_;
   interp::BsplineBasis basis_;
-  Eigen::MatrixXd factor_;  // F'
+  MatrixXd factor_;  // F'
 };
 
 /// The spread of surfaces through the nodes of a lattice, two columns a node: each has the readings' noise,
@@ -85,30 +85,30 @@ class DesignSpread {
 /// approximate the quintic's.
 struct NodeSpread {
   interp::TensorSpline splines;
-  Eigen::MatrixXd doubt_mm;
+  MatrixXd doubt_mm;
   double interpolation_sigma_mm;
   /// Least share of the interpolation's error: 1 counts it in full inside the lattice.
   double least_share;
   MapNoise noise;
 
-  Eigen::Matrix2Xd operator()(MarkPoint mark, const MapLengths& here,
-                              const model::PointReading* /*reading*/) const {
-    const Eigen::MatrixXd weights = splines.cardinal_weights(mark.x_mm, mark.y_mm);
+  Matrix2Xd operator()(MarkPoint mark, const MapLengths& here,
+                       const model::PointReading* /*reading*/) const {
+    const MatrixXd weights = splines.cardinal_weights(mark.x_mm, mark.y_mm);
     const double between = interpolation_sigma_mm * interpolation_sigma_mm *
                            std::max(least_share, 1.0 / weights.squaredNorm());
-    const Eigen::Matrix2d node =
+    const Matrix2d node =
         noise.factor_found * noise.factor_found *
         observation::covariance_of({noise.length_mm, noise.position_mm}, here.mark_jacobian);
-    Eigen::Matrix2Xd spread(2, 2 * weights.size());
-    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    Matrix2Xd spread(2, 2 * weights.size());
+    for (Index i = 0; i < weights.size(); ++i) {
       const double own_mm2 = std::pow(doubt_mm.reshaped()[i], 2) + between;
-      const Eigen::Matrix2d covariance = node + own_mm2 * Eigen::Matrix2d::Identity();
+      const Matrix2d covariance = node + own_mm2 * Matrix2d::Identity();
       // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.
       const double first = std::sqrt(covariance(0, 0));
       const double across = first > 0.0 ? covariance(0, 1) / first : 0.0;
       const double second = std::sqrt(std::max(0.0, covariance(1, 1) - across * across));
-      spread.col(2 * i) = weights.reshaped()[i] * Eigen::Vector2d(first, across);
-      spread.col(2 * i + 1) = weights.reshaped()[i] * Eigen::Vector2d(0.0, second);
+      spread.col(2 * i) = weights.reshaped()[i] * Vector2d(first, across);
+      spread.col(2 * i + 1) = weights.reshaped()[i] * Vector2d(0.0, second);
     }
     return spread;
   }
@@ -126,13 +126,13 @@ MapField::MapField(const MapContents& contents) {
   if (const auto* direct = std::get_if<DirectSurface>(&contents.surface)) {
     const std::vector<double>&x = direct->x_nodes_mm, &y = direct->y_nodes_mm;
     const auto axes = std::make_shared<const interp::TensorAxes>(x, y, direct->ends);
-    const auto spline = [&](const Eigen::MatrixXd& lengths_mm) {
+    const auto spline = [&](const MatrixXd& lengths_mm) {
       return std::make_shared<const interp::TensorSpline>(axes, lengths_mm,
                                                           parabola_slopes(x, y, lengths_mm));
     };
     const auto left = spline(direct->lengths_mm.left);
     surfaces_ = {left, spline(direct->lengths_mm.right)};
-    const Eigen::MatrixXd no_doubt = Eigen::MatrixXd::Zero(std::ssize(x), std::ssize(y));
+    const MatrixXd no_doubt = MatrixXd::Zero(std::ssize(x), std::ssize(y));
     spread_at_ = NodeSpread{*left, no_doubt, direct->interpolation_sigma_mm, 0.0, contents.noise};
   } else {
     const auto& surface = std::get<ModelSurface>(contents.surface);
@@ -176,29 +176,29 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
     const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
     auto slope = here.mark_jacobian.row(row_of(side));
     here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
-    slope = slope * (1.0 + scale_[side]) + Eigen::RowVector2d(own.dx, own.dy);
+    slope = slope * (1.0 + scale_[side]) + RowVector2d(own.dx, own.dy);
   }
   if (asked == Asked::spread)
     answer.spread_mm = spread_at_(mark, here, reading ? &*reading : nullptr);
   if (!beyond_) return answer;
-  const Eigen::Vector2d change = add_change(mark, here);
+  const Vector2d change = add_change(mark, here);
   if (asked == Asked::lengths) return answer;
   answer.spread_mm.conservativeResize(Eigen::NoChange, answer.spread_mm.cols() + 1);
   answer.spread_mm.rightCols<1>() = change;
   return answer;
 }
 
-Eigen::Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
-  Eigen::Vector2d change = Eigen::Vector2d::Zero();
+Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
+  Vector2d change = Vector2d::Zero();
   if (beyond_->hull.contains(mark.x_mm, mark.y_mm)) return change;
   for (const Side side : model::kSides) {
-    const Eigen::Index row = row_of(side);
+    const Index row = row_of(side);
     const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
     const interp::ValueGradient reply =
         interp::evaluate(*surfaces_[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
     change[row] = reply.value - own.value;
     here.lengths[side] += change[row];
-    here.mark_jacobian.row(row) += Eigen::RowVector2d(reply.dx - own.dx, reply.dy - own.dy);
+    here.mark_jacobian.row(row) += RowVector2d(reply.dx - own.dx, reply.dy - own.dy);
   }
   return change;
 }
@@ -206,14 +206,13 @@ Eigen::Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
 namespace {
 
 /// For the lines that are the rows of `values`, at their first node or, reversed, at their last.
-Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes, const Eigen::MatrixXd& values,
-                              bool last) {
-  const auto at = [&](Eigen::Index i) { return last ? std::ssize(nodes) - 1 - i : i; };
-  const auto node = [&](Eigen::Index i) { return nodes[as_size(at(i))]; };
-  const auto slope_to = [&](Eigen::Index i) -> Eigen::VectorXd {
+VectorXd slopes_at_end(const std::vector<double>& nodes, const MatrixXd& values, bool last) {
+  const auto at = [&](Index i) { return last ? std::ssize(nodes) - 1 - i : i; };
+  const auto node = [&](Index i) { return nodes[as_size(at(i))]; };
+  const auto slope_to = [&](Index i) -> VectorXd {
     return (values.col(at(i)) - values.col(at(0))) / (node(i) - node(0));
   };
-  const Eigen::VectorXd near = slope_to(1);
+  const VectorXd near = slope_to(1);
   if (nodes.size() == 2) return near;
   return near - (slope_to(2) - near) * (node(1) - node(0)) / (node(2) - node(1));
 }
@@ -221,9 +220,8 @@ Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes, const Eigen::Mat
 }  // namespace
 
 interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
-                                   const std::vector<double>& y_nodes_mm,
-                                   const Eigen::MatrixXd& values) {
-  const Eigen::MatrixXd along_x = values.transpose();
+                                   const std::vector<double>& y_nodes_mm, const MatrixXd& values) {
+  const MatrixXd along_x = values.transpose();
   return {slopes_at_end(x_nodes_mm, along_x, false), slopes_at_end(x_nodes_mm, along_x, true),
           slopes_at_end(y_nodes_mm, values, false), slopes_at_end(y_nodes_mm, values, true)};
 }

@@ -4,7 +4,6 @@
 /// chain, continued beyond the measured points as the map states.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "grid/chain_rows.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/map_contents.hpp"
 #include "interp/measured_region.hpp"
@@ -23,8 +23,7 @@ namespace chaintrue::grid {
 /// The slopes at the edges for `clamped` ends: those of the parabola through the outermost three
 /// nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
 interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
-                                   const std::vector<double>& y_nodes_mm,
-                                   const Eigen::MatrixXd& values);
+                                   const std::vector<double>& y_nodes_mm, const MatrixXd& values);
 
 /// Immutable, thread safe. Marks anywhere; the map decides whether an answer may be used.
 ///
@@ -45,13 +44,13 @@ class MapField {
   const model::SheetPlacement& sheet() const { return sheet_; }
 
   /// The uncertainty of an answer; what the machine reads at the mark is null for a map without one.
-  using SpreadAt = std::function<Eigen::Matrix2Xd(model::MarkPoint, const MapLengths&,
-                                                  const model::PointReading*)>;
+  using SpreadAt =
+      std::function<Matrix2Xd(model::MarkPoint, const MapLengths&, const model::PointReading*)>;
 
  private:
   /// Adds the map's continuation minus the surfaces' own. \returns its lengths; zero within the
   /// points.
-  Eigen::Vector2d add_change(model::MarkPoint mark, MapLengths& here) const;
+  Vector2d add_change(model::MarkPoint mark, MapLengths& here) const;
 
   struct Beyond {
     interp::ConvexHull hull;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "model/calibration/setting.hpp"
@@ -16,7 +17,7 @@ namespace {
 void tell_of(const model::ControllerKinematics& controller, MapPoint& point) {
   const auto believed = controller.command(point.lengths);
   if (!believed) return;
-  const Eigen::Vector2d error = difference(point.mark, *believed);
+  const Vector2d error = difference(point.mark, *believed);
   point.sheet_placed_mm += error - point.as_stated_mm;
   point.as_stated_mm = error;
 }

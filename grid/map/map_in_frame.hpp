@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/plane_vectors.hpp"
 
@@ -51,7 +52,7 @@ class MapInFrame final : public LengthMap {
     return map_.status(mark_of(point));
   }
   /// In directions of the marks' axes.
-  Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override {
+  Matrix2Xd tool_spread(model::BedPoint point) const override {
     return map_.tool_spread(mark_of(point));
   }
 

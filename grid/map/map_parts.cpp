@@ -11,9 +11,9 @@
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
-Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
+MatrixXd lower_factor(const MatrixXd& covariance) {
   constexpr double kJitter = 1e-12;
-  Eigen::MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
+  MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
   lifted.diagonal() *= 1.0 + kJitter;
   lifted.diagonal().array() += 1e-18;
   return linear::Cholesky(std::move(lifted)).lower();

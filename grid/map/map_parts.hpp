@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/compensation_map.hpp"
 
@@ -12,7 +13,7 @@ namespace chaintrue::grid {
 
 /// F of C = F F', lower triangular; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it
 /// be factorised.
-Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance);
+MatrixXd lower_factor(const MatrixXd& covariance);
 /// The estimate's machine, its surface and their covariance.
 ModelSurface model_surface(const estimation::Estimate& estimate);
 /// `stated` is the machine that the estimate started from, `sheet` the prior of the first sheet:

@@ -12,7 +12,7 @@ model::BedPoint SheetInFrame::on_sheet(model::ToolPosition position) const {
   model::MarkPoint raw{factor * (position.x_mm - origin.x_mm),
                        factor * (position.y_mm - origin.y_mm)};
   if (displacement) {
-    const Eigen::Vector2d moved = displacement->at(raw);
+    const Vector2d moved = displacement->at(raw);
     raw.x_mm += moved.x();
     raw.y_mm += moved.y();
   }
@@ -26,7 +26,7 @@ model::ToolPosition SheetInFrame::in_frame(model::BedPoint sheet) const {
   const model::MarkPoint there = laid.to_mark(sheet);
   model::MarkPoint raw = there;
   for (int round = 0; displacement && round < kMostRounds; ++round) {
-    const Eigen::Vector2d by = displacement->at(raw);
+    const Vector2d by = displacement->at(raw);
     const model::MarkPoint next{there.x_mm - by.x(), there.y_mm - by.y()};
     const double moved = distance_mm(next, raw);
     raw = next;
@@ -38,26 +38,26 @@ model::ToolPosition SheetInFrame::in_frame(model::BedPoint sheet) const {
 model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
                               const std::vector<model::BedPoint>& to) {
   const auto count = as_double(from.size());
-  Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
+  Vector2d a = Vector2d::Zero(), b = Vector2d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {
     a += vector_of(from[i]) / count;
     b += vector_of(to[i]) / count;
   }
-  Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
+  Matrix2d moment = Matrix2d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i)
     moment += (vector_of(from[i]) - a) * (vector_of(to[i]) - b).transpose();
   model::SheetPlacement sheet{0.0, 0.0, std::atan2(moment(0, 1) - moment(1, 0), moment.trace())};
-  const Eigen::Vector2d shift = b - sheet.rotation() * a;
+  const Vector2d shift = b - sheet.rotation() * a;
   sheet.x_mm = shift.x();
   sheet.y_mm = shift.y();
   return sheet;
 }
 
-MechanismSpread spread_about(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
+MechanismSpread spread_about(const VectorXd& values, const MatrixXd& covariance,
                              const PlacedAt& placed) {
   MechanismSpread spread{placed(values), {}};
   const linear::SymmetricEigen parts(covariance);
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
+  for (Index i = 0; i < values.size(); ++i) {
     const double variance = parts.eigenvalues()[i];
     // Below this a direction adds less than rounding.
     if (!(variance > 1e-12 * parts.eigenvalues().maxCoeff())) continue;
@@ -74,7 +74,7 @@ MechanismMap MechanismMap::of(const FittedMechanism& fitted,
   for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
   return {best,
           spread_about(fitted.mechanism->values(), fitted.covariance,
-                       [&](const Eigen::VectorXd& values) {
+                       [&](const VectorXd& values) {
                          return PlacedMechanism{fitted.mechanism->with_values(values), best.sheet};
                        }),
           MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
@@ -116,11 +116,11 @@ model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
   return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
 }
 
-Eigen::Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
+Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
   const auto others = std::ssize(spread_.others);
-  Eigen::Matrix2Xd spread = Eigen::Matrix2Xd::Zero(2, others + 2);
+  Matrix2Xd spread = Matrix2Xd::Zero(2, others + 2);
   if (const auto paid_out = lengths_of(spread_.centre, point)) {
-    for (Eigen::Index i = 0; i < others; ++i) {
+    for (Index i = 0; i < others; ++i) {
       const PlacedMechanism& other = spread_.others[as_size(i)];
       const auto there = other.mechanism->locate_by_first(*paid_out);
       if (!there) continue;
@@ -128,8 +128,7 @@ Eigen::Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
       spread.col(i) = difference(tool, point);
     }
   }
-  spread.rightCols<2>() =
-      std::sqrt(fitted_.sheet.own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
+  spread.rightCols<2>() = std::sqrt(fitted_.sheet.own_variance_mm2(point)) * Matrix2d::Identity();
   return spread;
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
 #include "grid/map/tool_displacement.hpp"
@@ -65,8 +66,8 @@ struct MechanismSpread {
   PlacedMechanism centre;
   std::vector<PlacedMechanism> others;
 };
-using PlacedAt = std::function<PlacedMechanism(const Eigen::VectorXd& values)>;
-MechanismSpread spread_about(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
+using PlacedAt = std::function<PlacedMechanism(const VectorXd& values)>;
+MechanismSpread spread_about(const VectorXd& values, const MatrixXd& covariance,
                              const PlacedAt& placed);
 
 class MechanismMap : public LengthMap {
@@ -98,7 +99,7 @@ class MechanismMap : public LengthMap {
   /// One sigma of the first two lengths; a point that lengths() answers.
   model::ChainLengths sigma(model::BedPoint point) const;
 
-  Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
+  Matrix2Xd tool_spread(model::BedPoint point) const override;
 
   /// Corners of what was measured.
   std::vector<model::BedPoint> hull() const;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/fitted_points.hpp"
 #include "grid/statistics.hpp"
 
@@ -41,18 +42,18 @@ class RepeatScatter {
   RepeatScatter(const observation::PointNoise& noise, const observation::PointNoise& rounding)
       : noise_(noise), rounding_(rounding) {}
   /// \param by_mark derivatives of the lengths by the mark
-  void add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2d& by_mark) {
-    const Eigen::LLT<Eigen::Matrix2d> factor(observation::covariance_of(noise_, by_mark));
+  void add(const Vector2d& residual_mm, const Matrix2d& by_mark) {
+    const Eigen::LLT<Matrix2d> factor(observation::covariance_of(noise_, by_mark));
     group_.emplace_back(factor.matrixL().solve(residual_mm));
-    const Eigen::Matrix2d rounding = observation::covariance_of(rounding_, by_mark);
+    const Matrix2d rounding = observation::covariance_of(rounding_, by_mark);
     rounding_squares_ += factor.solve(rounding).trace();
     rows_ += 2.0;
   }
 
   void end_group() {
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& w : group_) mean += w / as_double(group_.size());
-    for (const Eigen::Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
+    Vector2d mean = Vector2d::Zero();
+    for (const Vector2d& w : group_) mean += w / as_double(group_.size());
+    for (const Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
     if (!group_.empty()) dof_ += 2.0 * as_double(group_.size() - 1);
     group_.clear();
   }
@@ -69,7 +70,7 @@ class RepeatScatter {
  private:
   observation::PointNoise noise_;
   observation::PointNoise rounding_;
-  std::vector<Eigen::Vector2d> group_;
+  std::vector<Vector2d> group_;
   double squares_ = 0.0;
   double dof_ = 0.0;
   double rounding_squares_ = 0.0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -55,8 +56,8 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
   notes.emplace_back(
       "The readings have no noise and are on full rows and columns, so the map passes through "
       "every one of them.");
-  for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
-    for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
+  for (Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
+    for (Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
       notes.push_back(
           fmt::format("No reading at ({:.0f}, {:.0f}) was used; the map there comes from the row "
@@ -207,14 +208,14 @@ class PointsPart final : public FitPart {
     input.surface = estimation::SurfaceUse::none;
     input.held_out_together.clear();
     const auto& units = fit.estimate.units;
-    Eigen::VectorXd& weights = input.fixed_weights.emplace(std::ssize(units));
+    VectorXd& weights = input.fixed_weights.emplace(std::ssize(units));
     for (std::size_t u = 0; u < units.size(); ++u)
       weights[as_index(u)] = units[u].is_rejected() ? 0.0 : 1.0;
     const auto plain = estimation::estimate(input);
     if (!plain || !plain->converged) return fit;
     estimation::Estimate& estimate = fit.estimate;
-    const Eigen::Index known = estimate.columns.settings + 2;
-    const Eigen::VectorXd change = plain->map_unknowns - estimate.map_unknowns;
+    const Index known = estimate.columns.settings + 2;
+    const VectorXd change = plain->map_unknowns - estimate.map_unknowns;
     estimate.machine = plain->machine;
     estimate.observations.front().sheet = plain->observations.front().sheet;
     estimate.surface.scale = plain->surface.scale;

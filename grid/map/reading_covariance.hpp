@@ -17,12 +17,12 @@
 /// Matrix Computations (2013), sections 2.1.4 and 5.3.
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -30,19 +30,19 @@ namespace chaintrue::grid {
 
 /// (1). All in mm^2 or mm.
 struct ReadingCovariance {
-  std::vector<Eigen::MatrixXd> own;  ///< of each unit, in the order of the rows
+  std::vector<MatrixXd> own;  ///< of each unit, in the order of the rows
   Eigen::SparseMatrix<double> shared;
-  Eigen::MatrixXd of_map;
+  MatrixXd of_map;
 
-  Eigen::Index rows() const { return of_map.rows(); }
-  Eigen::VectorXd diagonal() const {
-    Eigen::VectorXd sum = of_map.rowwise().squaredNorm();
-    for (Eigen::Index column = 0; column < shared.outerSize(); ++column) {
+  Index rows() const { return of_map.rows(); }
+  VectorXd diagonal() const {
+    VectorXd sum = of_map.rowwise().squaredNorm();
+    for (Index column = 0; column < shared.outerSize(); ++column) {
       for (Eigen::SparseMatrix<double>::InnerIterator at(shared, column); at; ++at)
         sum[at.row()] += at.value() * at.value();
     }
-    Eigen::Index row = 0;
-    for (const Eigen::MatrixXd& unit : own) {
+    Index row = 0;
+    for (const MatrixXd& unit : own) {
       sum.segment(row, unit.rows()) += unit.diagonal();
       row += unit.rows();
     }
@@ -50,11 +50,11 @@ struct ReadingCovariance {
   }
 
   /// n x n.
-  Eigen::MatrixXd dense() const {
-    Eigen::MatrixXd sum = linear::outer(of_map);
-    sum += Eigen::MatrixXd(shared * shared.transpose());
-    Eigen::Index row = 0;
-    for (const Eigen::MatrixXd& unit : own) {
+  MatrixXd dense() const {
+    MatrixXd sum = linear::outer(of_map);
+    sum += MatrixXd(shared * shared.transpose());
+    Index row = 0;
+    for (const MatrixXd& unit : own) {
       sum.block(row, row, unit.rows(), unit.rows()) += unit;
       row += unit.rows();
     }
@@ -63,7 +63,7 @@ struct ReadingCovariance {
 };
 
 /// F F' with no more columns than rows.
-inline Eigen::MatrixXd narrowed(const Eigen::MatrixXd& f) {
+inline MatrixXd narrowed(const MatrixXd& f) {
   if (f.cols() <= f.rows()) return f;
   return linear::covariance_root(linear::outer(f));
 }
@@ -74,13 +74,13 @@ class FactoredCovariance {
   /// \throws std::invalid_argument where units, S and F have other numbers of rows, or a unit's
   /// noise is not positive.
   explicit FactoredCovariance(const ReadingCovariance& covariance) {
-    Eigen::Index rows = 0;
+    Index rows = 0;
     std::vector<Eigen::Triplet<double>> entries;
-    for (const Eigen::MatrixXd& own : covariance.own) {
+    for (const MatrixXd& own : covariance.own) {
       whitening_.push_back(whitening_of_unit(own));
-      const Eigen::MatrixXd& white = whitening_.back();
-      for (Eigen::Index i = 0; i < white.rows(); ++i) {
-        for (Eigen::Index j = 0; j <= i; ++j) entries.emplace_back(rows + i, rows + j, white(i, j));
+      const MatrixXd& white = whitening_.back();
+      for (Index i = 0; i < white.rows(); ++i) {
+        for (Index j = 0; j <= i; ++j) entries.emplace_back(rows + i, rows + j, white(i, j));
         log_root_det_ -= std::log(white(i, i));
       }
       rows += white.rows();
@@ -98,10 +98,10 @@ class FactoredCovariance {
   }
 
   /// Y of (2), for each column of y (n x any).
-  Eigen::MatrixXd conditioned(const Eigen::MatrixXd& y) const {
-    const Eigen::MatrixXd white = white_ * y;
-    const Eigen::MatrixXd z = factor_.solve(by_columns(white));
-    Eigen::MatrixXd result(white.rows() + z.rows(), y.cols());
+  MatrixXd conditioned(const MatrixXd& y) const {
+    const MatrixXd white = white_ * y;
+    const MatrixXd z = factor_.solve(by_columns(white));
+    MatrixXd result(white.rows() + z.rows(), y.cols());
     result.topRows(white.rows()) = white - shared_ * z.topRows(shared_.cols()) -
                                    linear::product(of_map_, z.bottomRows(of_map_.cols()));
     result.bottomRows(z.rows()) = z;
@@ -111,35 +111,34 @@ class FactoredCovariance {
   /// log |K|^1/2
   double log_root_det() const { return log_root_det_; }
   /// K^-1 y from one Y.
-  Eigen::VectorXd pulled(const Eigen::VectorXd& conditioned) const {
+  VectorXd pulled(const VectorXd& conditioned) const {
     return white_.transpose() * conditioned.head(white_.rows());
   }
 
   /// The diagonal blocks of K^-1, by units.
-  std::vector<Eigen::MatrixXd> precision_of_units() const {
+  std::vector<MatrixXd> precision_of_units() const {
     // Enough rows for a fast solve, few enough for little memory.
     constexpr std::size_t kUnits = 256;
-    std::vector<Eigen::MatrixXd> result;
+    std::vector<MatrixXd> result;
     result.reserve(whitening_.size());
-    Eigen::Index first_row = 0;
+    Index first_row = 0;
     for (std::size_t first = 0; first < whitening_.size(); first += kUnits) {
       const std::size_t end = std::min(first + kUnits, whitening_.size());
-      Eigen::Index rows = 0;
+      Index rows = 0;
       for (std::size_t u = first; u < end; ++u) rows += whitening_[u].rows();
-      Eigen::MatrixXd by_row(columns(), rows);
-      by_row.topRows(shared_.cols()) =
-          Eigen::MatrixXd(shared_.middleRows(first_row, rows)).transpose();
+      MatrixXd by_row(columns(), rows);
+      by_row.topRows(shared_.cols()) = MatrixXd(shared_.middleRows(first_row, rows)).transpose();
       by_row.bottomRows(of_map_.cols()) = of_map_.middleRows(first_row, rows).transpose();
-      const Eigen::MatrixXd solved = factor_.half_solve(by_row);
-      Eigen::Index row = 0;
+      const MatrixXd solved = factor_.half_solve(by_row);
+      Index row = 0;
       for (std::size_t u = first; u < end; ++u) {
-        const Eigen::MatrixXd& white = whitening_[u];
+        const MatrixXd& white = whitening_[u];
         const auto own = solved.middleCols(row, white.rows());
         const double prior = by_row.middleCols(row, white.rows()).squaredNorm();
         // The variance of a unit given all other readings is at most its prior variance.
         const linear::SymmetricEigen parts(linear::gram(own));
-        const Eigen::VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
-        const Eigen::MatrixXd turned = parts.eigenvectors().transpose() * white;
+        const VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
+        const MatrixXd turned = parts.eigenvectors().transpose() * white;
         result.emplace_back(turned.transpose() * left.asDiagonal() * turned);
         row += white.rows();
       }
@@ -150,39 +149,39 @@ class FactoredCovariance {
 
  private:
   /// L^-1 of a unit. Throws if the noise is not positive.
-  static Eigen::MatrixXd whitening_of_unit(const Eigen::MatrixXd& own) {
+  static MatrixXd whitening_of_unit(const MatrixXd& own) {
     const linear::Cholesky factor(own);
     if (own.size() == 0 || !factor.is_positive_definite()) {
       throw precondition("{} readings of one unit whose least variance is {:g} mm^2", own.rows(),
                          own.size() > 0 ? own.diagonal().minCoeff() : 0.0);
     }
-    return factor.half_solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
+    return factor.half_solve(MatrixXd::Identity(own.rows(), own.cols()));
   }
 
-  Eigen::Index columns() const { return shared_.cols() + of_map_.cols(); }
-  Eigen::MatrixXd gram() const {
-    const Eigen::Index k = shared_.cols();
-    const Eigen::Index m = of_map_.cols();
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(k + m, k + m);
+  Index columns() const { return shared_.cols() + of_map_.cols(); }
+  MatrixXd gram() const {
+    const Index k = shared_.cols();
+    const Index m = of_map_.cols();
+    MatrixXd gram = MatrixXd::Identity(k + m, k + m);
     if (k > 0) {
-      gram.topLeftCorner(k, k) += Eigen::MatrixXd(shared_.transpose() * shared_);
+      gram.topLeftCorner(k, k) += MatrixXd(shared_.transpose() * shared_);
       gram.bottomLeftCorner(m, k) = (shared_.transpose() * of_map_).transpose();
     }
     gram.bottomRightCorner(m, m) = linear::one_plus_gram(of_map_);
     return gram;
   }
 
-  Eigen::MatrixXd by_columns(const Eigen::MatrixXd& white) const {
-    Eigen::MatrixXd result(columns(), white.cols());
+  MatrixXd by_columns(const MatrixXd& white) const {
+    MatrixXd result(columns(), white.cols());
     result.topRows(shared_.cols()) = shared_.transpose() * white;
     result.bottomRows(of_map_.cols()) = linear::product(linear::transposed(of_map_), white);
     return result;
   }
 
-  std::vector<Eigen::MatrixXd> whitening_;               ///< L^-1 of each unit
+  std::vector<MatrixXd> whitening_;                      ///< L^-1 of each unit
   Eigen::SparseMatrix<double, Eigen::RowMajor> white_;   ///< L^-1
   Eigen::SparseMatrix<double, Eigen::RowMajor> shared_;  ///< L^-1 S
-  Eigen::MatrixXd of_map_;                               ///< L^-1 F
+  MatrixXd of_map_;                                      ///< L^-1 F
   linear::Cholesky factor_;                              ///< of M
   double log_root_det_ = 0.0;
 };

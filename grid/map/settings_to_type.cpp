@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
@@ -87,9 +88,8 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
 }
 
 /// The errors with such settings.
-std::optional<Eigen::VectorXd> errors_with(const Machine& machine,
-                                           const ControllerSettings& settings,
-                                           const std::vector<MeasuredPlace>& places) {
+std::optional<VectorXd> errors_with(const Machine& machine, const ControllerSettings& settings,
+                                    const std::vector<MeasuredPlace>& places) {
   Machine with_settings = machine;
   with_settings.controller.settings = settings;
   return controller_errors(paid_out_by(with_settings), places);
@@ -103,9 +103,9 @@ std::optional<ControllerSettings> improved(const Machine& machine, const Control
   const auto errors = errors_with(machine, now, places);
   if (!errors) return std::nullopt;
   const auto unknowns = std::ssize(free);
-  Eigen::MatrixXd by_setting(errors->size(), unknowns);
-  Eigen::VectorXd prior_pull(unknowns);  // of the settings in force, in sigmas
-  for (Eigen::Index k = 0; k < unknowns; ++k) {
+  MatrixXd by_setting(errors->size(), unknowns);
+  VectorXd prior_pull(unknowns);  // of the settings in force, in sigmas
+  for (Index k = 0; k < unknowns; ++k) {
     const FreeSetting& setting = free[as_size(k)];
     ControllerSettings more = now;
     ControllerSettings less = now;
@@ -118,13 +118,13 @@ std::optional<ControllerSettings> improved(const Machine& machine, const Control
     prior_pull[k] =
         (*(now.*setting.value) - *(machine.controller.settings.*setting.value)) / setting.sigma;
   }
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  MatrixXd normal = MatrixXd::Identity(unknowns, unknowns);
   linear::add_gram(normal, weight, by_setting);
-  const Eigen::VectorXd right =
+  const VectorXd right =
       -weight * linear::product(linear::transposed(by_setting), *errors) - prior_pull;
-  const Eigen::VectorXd step = linear::Cholesky(std::move(normal)).solve(right);
+  const VectorXd step = linear::Cholesky(std::move(normal)).solve(right);
   ControllerSettings better = now;
-  for (Eigen::Index k = 0; k < unknowns; ++k) {
+  for (Index k = 0; k < unknowns; ++k) {
     const FreeSetting& setting = free[as_size(k)];
     *(better.*setting.value) += setting.sigma * step[k];
   }
@@ -145,7 +145,7 @@ void round_to_type(const std::vector<FreeSetting>& free, const ControllerSetting
 }
 
 /// Over the area, without its uncertainty.
-double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& errors) {
+double rms_of(const std::vector<MeasuredPlace>& places, const VectorXd& errors) {
   double squares_mm2 = 0.0;
   int within = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -159,7 +159,7 @@ double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& e
 /// Settings and the error of the tool with them, root mean square over the area.
 struct TypedSettings {
   ControllerSettings settings;
-  Eigen::VectorXd errors_mm;
+  VectorXd errors_mm;
   double rms_mm;
 };
 
@@ -305,7 +305,7 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(
   truth.places = [&hull](const Machine& one) {
     const auto mechanism = model::make_chain_mechanism(one);
     const auto parameters = std::ssize(mechanism->parameters());
-    const FittedMechanism exact{mechanism, Eigen::MatrixXd::Zero(parameters, parameters)};
+    const FittedMechanism exact{mechanism, MatrixXd::Zero(parameters, parameters)};
     return measured_places(MechanismMap::of(exact, hull), hull);
   };
   return settings_for(truth);

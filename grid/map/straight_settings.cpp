@@ -6,6 +6,7 @@
 
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/map/controller_error.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -16,11 +17,11 @@ using model::BedPoint;
 using model::Side;
 
 /// For a chain: its anchor and its count.
-constexpr Eigen::Index kX = 0, kY = 1, kCount = 2, kOfChain = 3;
+constexpr Index kX = 0, kY = 1, kCount = 2, kOfChain = 3;
 
 /// (1) less the map, both chains, and its derivatives by both chains' unknowns.
 struct Misfit {
-  Eigen::Vector2d residual_mm;
+  Vector2d residual_mm;
   Eigen::Matrix<double, 2, 2 * kOfChain> by_unknown =
       Eigen::Matrix<double, 2, 2 * kOfChain>::Zero();
 };
@@ -29,7 +30,7 @@ Misfit misfit_at(const MeasuredPlace& place, model::ChainLengths at_origin,
                  const Eigen::Vector<double, 2 * kOfChain>& unknowns) {
   Misfit misfit;
   for (const Side side : model::kSides) {
-    const Eigen::Index row = row_of(side), from = kOfChain * row;
+    const Index row = row_of(side), from = kOfChain * row;
     const double x = unknowns[from + kX], y = unknowns[from + kY], count = unknowns[from + kCount];
     const double there = std::hypot(place.commanded.x_mm - x, place.commanded.y_mm - y);
     const double origin = std::hypot(x, y);
@@ -42,19 +43,18 @@ Misfit misfit_at(const MeasuredPlace& place, model::ChainLengths at_origin,
 }
 
 /// Both chains' unknowns from those that are free: level anchors share their y.
-Eigen::MatrixXd all_by_free(Anchors anchors) {
-  if (anchors == Anchors::free) return Eigen::MatrixXd::Identity(2 * kOfChain, 2 * kOfChain);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * kOfChain, 2 * kOfChain - 1);
+MatrixXd all_by_free(Anchors anchors) {
+  if (anchors == Anchors::free) return MatrixXd::Identity(2 * kOfChain, 2 * kOfChain);
+  MatrixXd all = MatrixXd::Zero(2 * kOfChain, 2 * kOfChain - 1);
   all(kX, 0) = all(kY, 1) = all(kCount, 2) = 1.0;
   all(kOfChain + kX, 3) = all(kOfChain + kCount, 4) = 1.0;
   all(kOfChain + kY, 1) = 1.0;
   return all;
 }
 
-Eigen::VectorXd errors_with(const std::vector<MeasuredPlace>& places, model::ChainLengths at_origin,
-                            const Eigen::Vector<double, 2 * kOfChain>& unknowns,
-                            Eigen::MatrixXd* by_unknown) {
-  Eigen::VectorXd errors(2 * std::ssize(places));
+VectorXd errors_with(const std::vector<MeasuredPlace>& places, model::ChainLengths at_origin,
+                     const Eigen::Vector<double, 2 * kOfChain>& unknowns, MatrixXd* by_unknown) {
+  VectorXd errors(2 * std::ssize(places));
   if (by_unknown != nullptr) by_unknown->resize(errors.size(), 2 * kOfChain);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Misfit misfit = misfit_at(places[i], at_origin, unknowns);
@@ -97,16 +97,16 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
   const auto origin = map.lengths(model::MarkPoint{0.0, 0.0});
   if (!origin || places.empty()) return tl::unexpected(StraightReason::no_origin);
-  const Eigen::MatrixXd free = all_by_free(anchors);
+  const MatrixXd free = all_by_free(anchors);
   auto unknowns = start_of(*map.machine(), anchors);
   constexpr int kMostSteps = 50;
   // Far below the typed resolution, 1e-4 mm.
   constexpr double kConverged = 1e-7;
   bool converged = false;
   for (int step = 0; step < kMostSteps && !converged; ++step) {
-    Eigen::MatrixXd by_unknown;
-    const Eigen::VectorXd errors = errors_with(places, origin->lengths, unknowns, &by_unknown);
-    const Eigen::VectorXd change =
+    MatrixXd by_unknown;
+    const VectorXd errors = errors_with(places, origin->lengths, unknowns, &by_unknown);
+    const VectorXd change =
         linear::product(free, linear::least_squares(linear::product(by_unknown, free), -errors));
     if (!change.allFinite()) break;
     unknowns += change;
@@ -115,7 +115,7 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
   if (!converged) return tl::unexpected(StraightReason::not_converged);
   StraightSettings result;
   for (const Side side : model::kSides) {
-    const Eigen::Index from = kOfChain * row_of(side);
+    const Index from = kOfChain * row_of(side);
     result.anchors[side] = {unknowns[from + kX], unknowns[from + kY]};
     result.more_steps[side] = unknowns[from + kCount];
     result.longer_mm[side] =

@@ -7,9 +7,9 @@
 
 namespace chaintrue::grid {
 
-Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                                    const std::vector<model::MarkPoint>& to, double reach_mm) {
-  Eigen::MatrixXd kernel(std::ssize(from), std::ssize(to));
+MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
+                             const std::vector<model::MarkPoint>& to, double reach_mm) {
+  MatrixXd kernel(std::ssize(from), std::ssize(to));
   for (std::size_t i = 0; i < from.size(); ++i) {
     for (std::size_t j = 0; j < to.size(); ++j) {
       const double u = std::sqrt(5.0) * distance_mm(from[i], to[j]) / reach_mm;

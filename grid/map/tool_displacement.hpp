@@ -18,11 +18,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
@@ -33,12 +33,12 @@ struct DisplacementParts {
   double size_mm = 0.0;   ///< one sigma beforehand, on each axis
   double reach_mm = 1.0;  ///< over which it changes
   std::vector<model::MarkPoint> places;
-  Eigen::VectorXd at_mm;  ///< x and y at each place, 2 N
+  VectorXd at_mm;  ///< x and y at each place, 2 N
 };
 
 /// (1) between all of two lists.
-Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                                    const std::vector<model::MarkPoint>& to, double reach_mm);
+MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
+                             const std::vector<model::MarkPoint>& to, double reach_mm);
 
 /// Immutable, thread safe.
 class ToolDisplacement {
@@ -53,21 +53,21 @@ class ToolDisplacement {
     // Keeps K positive definite for two holes at one place; a ten-thousandth of the size is below any
     // tape.
     constexpr double kSamePlace = 1e-8;
-    Eigen::MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
+    MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
     kernel.diagonal().array() += kSamePlace;
     inverse_ = linear::Cholesky(std::move(kernel)).inverse();
     Eigen::MatrixX2d at(count, 2);
-    for (Eigen::Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
+    for (Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
     weights_mm_ = inverse_ * at;
   }
 
-  Eigen::Vector2d at(model::MarkPoint mark) const {
+  Vector2d at(model::MarkPoint mark) const {
     return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
   }
 
   /// For each axis, in addition to the uncertainty at the places.
   double own_variance_mm2(model::MarkPoint mark) const {
-    const Eigen::RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
+    const RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
     return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
   }
 
@@ -76,7 +76,7 @@ class ToolDisplacement {
  private:
   DisplacementParts parts_;
   Eigen::MatrixX2d weights_mm_;
-  Eigen::MatrixXd inverse_;  ///< of K
+  MatrixXd inverse_;  ///< of K
 };
 
 }  // namespace chaintrue::grid

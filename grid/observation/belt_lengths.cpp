@@ -12,7 +12,7 @@ const Kind belt_lengths{"belt_lengths", "point", "points", "point", false};
 namespace {
 
 /// Rows that several places of a block share are in units of this many.
-constexpr Eigen::Index kBlockUnitRows = 2;
+constexpr Index kBlockUnitRows = 2;
 
 std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) {
   stable_sort(places, [](const auto& a, const auto& b) {
@@ -47,7 +47,7 @@ BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places, bool 
   join_places();
   std::vector<double> measured;
   for (const Block& block : blocks_) number_rows(block, measured);
-  measured_ = Eigen::Map<const Eigen::VectorXd>(measured.data(), std::ssize(measured));
+  measured_ = Eigen::Map<const VectorXd>(measured.data(), std::ssize(measured));
 }
 
 /// Blocks: places with the distances between them, joined until no distance leads out of one.
@@ -110,23 +110,23 @@ void BeltLengthReadings::join_places() {
 
 void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& measured) {
   first_unit_.push_back(units_.size());
-  Eigen::Index rows = 0;
-  Eigen::Index most = kBlockUnitRows;
+  Index rows = 0;
+  Index most = kBlockUnitRows;
   for (const std::size_t place : block.places) {
     const LengthsAtPlace& own = readings_[place];
     rows += own.counted() - (own.known ? 0 : 2);
   }
-  if (block.places.size() == 1 && block.distances.empty()) most = std::max<Eigen::Index>(rows, 1);
+  if (block.places.size() == 1 && block.distances.empty()) most = std::max<Index>(rows, 1);
   rows += std::ssize(block.distances);
   const std::size_t place = block.places.empty() ? readings_.size() : block.places.front();
   const bool is_known = !block.places.empty() && readings_[place].known.has_value();
-  for (Eigen::Index row = 0; row < rows; row += most) {
+  for (Index row = 0; row < rows; row += most) {
     units_.push_back({std::ssize(measured), std::min(most, rows - row),
                       place < readings_.size() ? readings_[place].index : block.distances.front()});
     place_of_unit_.push_back(place);
     if (is_known) {
       const LengthsAtPlace& own = readings_[place];
-      for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i) {
+      for (Index i = 0; i < own.lengths_mm.size(); ++i) {
         if (own.counts(i)) measured.push_back(own.lengths_mm[i]);
       }
     } else {

@@ -33,12 +33,12 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/observation/taped_ends.hpp"
 
@@ -47,7 +47,7 @@ namespace chaintrue::grid::observation {
 struct LengthsAtPlace {
   std::size_t index = 0;  ///< into the file's points
   std::string name;       ///< "3"
-  Eigen::VectorXd lengths_mm;
+  VectorXd lengths_mm;
   std::vector<bool> counting;  ///< of each length; empty: all
   model::MechanismVisit visit;
   /// Where the tool was, in the mechanism's frame; empty: unknown.
@@ -58,12 +58,10 @@ struct LengthsAtPlace {
   /// they do not depend on a nearby q. Empty: q of (1).
   std::optional<model::ToolPosition> about = std::nullopt;
 
-  bool counts(Eigen::Index length) const {
-    return counting.empty() || counting.at(as_size(length));
-  }
-  Eigen::Index counted() const {
-    Eigen::Index count = 0;
-    for (Eigen::Index i = 0; i < lengths_mm.size(); ++i) count += counts(i) ? 1 : 0;
+  bool counts(Index length) const { return counting.empty() || counting.at(as_size(length)); }
+  Index counted() const {
+    Index count = 0;
+    for (Index i = 0; i < lengths_mm.size(); ++i) count += counts(i) ? 1 : 0;
     return count;
   }
 };
@@ -77,10 +75,10 @@ struct BeltNoise {
 /// Lengths and distances whose positions are found together, about a view.
 struct BlockLine {
   std::vector<model::ToolPosition> positions;
-  Eigen::VectorXd residual_mm;   ///< all lengths place by place, then the distances
-  Eigen::MatrixXd by_position;   ///< times 2 a place
-  Eigen::MatrixXd by_parameter;  ///< times p, or 0
-  Eigen::VectorXd weight;        ///< relative to that of a length; 0: does not count
+  VectorXd residual_mm;   ///< all lengths place by place, then the distances
+  MatrixXd by_position;   ///< times 2 a place
+  MatrixXd by_parameter;  ///< times p, or 0
+  VectorXd weight;        ///< relative to that of a length; 0: does not count
 };
 
 class BeltLengthReadings final : public Observation {
@@ -120,10 +118,10 @@ class BeltLengthReadings final : public Observation {
  private:
   /// Rows about a view: f, A and C of one block's units together.
   struct BlockRows {
-    Eigen::VectorXd predicted;
-    Eigen::MatrixXd by_parameter;
-    Eigen::MatrixXd covariance;
-    Eigen::MatrixXd by_reading;
+    VectorXd predicted;
+    MatrixXd by_parameter;
+    MatrixXd covariance;
+    MatrixXd by_reading;
   };
   [[nodiscard]] tl::expected<BlockRows, Unreachable> rows_of(const View& view, const Block& block,
                                                              bool with_parameters) const;

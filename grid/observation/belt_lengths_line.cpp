@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
   if (place.rejected.empty()) return place.counting;
   std::vector<bool> deciding;
-  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i)
+  for (Index i = 0; i < place.lengths_mm.size(); ++i)
     deciding.push_back(place.counts(i) && !place.rejected.at(as_size(i)));
   return deciding;
 }
@@ -30,12 +31,11 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
                                       : model::Derivatives::by_position;
   const auto lengths = std::ssize(view.mechanism->lengths());
   const auto places = std::ssize(block.places);
-  const Eigen::Index rows = lengths * places + std::ssize(block.distances);
-  const Eigen::Index parameters = with_parameters ? view.mechanism->values().size() : 0;
-  BlockLine line{std::move(positions), Eigen::VectorXd(rows),
-                 Eigen::MatrixXd::Zero(rows, 2 * places), Eigen::MatrixXd::Zero(rows, parameters),
-                 Eigen::VectorXd(rows)};
-  for (Eigen::Index p = 0; p < places; ++p) {
+  const Index rows = lengths * places + std::ssize(block.distances);
+  const Index parameters = with_parameters ? view.mechanism->values().size() : 0;
+  BlockLine line{std::move(positions), VectorXd(rows), MatrixXd::Zero(rows, 2 * places),
+                 MatrixXd::Zero(rows, parameters), VectorXd(rows)};
+  for (Index p = 0; p < places; ++p) {
     const std::size_t place = block.places[as_size(p)];
     const LengthsAtPlace& own = readings_[place];
     const auto at = view.mechanism->predict(line.positions[as_size(p)], own.visit, wanted);
@@ -44,10 +44,9 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
     line.by_position.block(lengths * p, 2 * p, lengths, 2) = at->by_position;
     if (with_parameters) line.by_parameter.middleRows(lengths * p, lengths) = at->by_parameter;
-    for (Eigen::Index i = 0; i < lengths; ++i)
-      line.weight[lengths * p + i] = own.counts(i) ? 1.0 : 0.0;
+    for (Index i = 0; i < lengths; ++i) line.weight[lengths * p + i] = own.counts(i) ? 1.0 : 0.0;
   }
-  Eigen::Index row = lengths * places;
+  Index row = lengths * places;
   for (const std::size_t k : block.distances) {
     const TapedDistance& distance = distances_[k];
     std::array<std::optional<std::size_t>, 2> slots;  // of its ends, among the block's places
@@ -81,8 +80,8 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
   constexpr int kMostSteps = 100;
   constexpr double kConvergedMm = 1e-9;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
-    const Eigen::VectorXd move =
+    const MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
+    const VectorXd move =
         linear::PivotedCholesky(linear::product(linear::transposed(weighed), line.by_position))
             .solve(linear::product(linear::transposed(weighed), line.residual_mm));
     if (!move.allFinite()) break;
@@ -130,18 +129,18 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
 
 tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
     const View& view, const Columns& columns) const {
-  const Eigen::Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
+  const Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
   Linearisation result = blank(parameters + (columns.sheet ? 3 : 0));
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const std::size_t end = b + 1 < blocks_.size() ? first_unit_[b + 1] : units_.size();
     if (first_unit_[b] == end) continue;
     auto own = rows_of(view, blocks_[b], columns.parameters);
     if (!own) return tl::unexpected(own.error());
-    const Eigen::Index first = units_[first_unit_[b]].first_row;
+    const Index first = units_[first_unit_[b]].first_row;
     result.predicted.segment(first, own->predicted.size()) = own->predicted;
     result.by_setting.block(first, 0, own->predicted.size(), parameters) = own->by_parameter;
     for (std::size_t u = first_unit_[b]; u < end; ++u) {
-      const Eigen::Index at = units_[u].first_row - first;
+      const Index at = units_[u].first_row - first;
       result.units.push_back(
           {own->covariance.block(at, at, units_[u].rows, units_[u].rows), {}, own->by_reading});
     }
@@ -176,33 +175,33 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const bool is_alone = block.places.size() == 1 && block.distances.empty();
   if (is_alone && !is_known && line->weight.size() == 4 && line->weight.minCoeff() == 1.0)
     return rows_of_four(*line);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < line->weight.size(); ++i) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < line->weight.size(); ++i) {
     if (line->weight[i] > 0.0) rows.push_back(i);
   }
   const auto count = std::ssize(rows);
   const double variance = noise_.length_mm * noise_.length_mm;
-  const Eigen::VectorXd root = line->weight(rows).cwiseSqrt();
-  const Eigen::MatrixXd by_position = root.asDiagonal() * line->by_position(rows, Eigen::all);
-  const Eigen::MatrixXd by_parameter = root.asDiagonal() * line->by_parameter(rows, Eigen::all);
+  const VectorXd root = line->weight(rows).cwiseSqrt();
+  const MatrixXd by_position = root.asDiagonal() * line->by_position(rows, Eigen::all);
+  const MatrixXd by_parameter = root.asDiagonal() * line->by_parameter(rows, Eigen::all);
   if (is_known) {
     return BlockRows{first->lengths_mm(rows) - line->residual_mm(rows),
                      by_parameter,
-                     variance * Eigen::MatrixXd::Identity(count, count) +
+                     variance * MatrixXd::Identity(count, count) +
                          noise_.position_mm * noise_.position_mm * linear::outer(by_position),
                      {}};
   }
-  const Eigen::Index left = count - by_position.cols();
-  const Eigen::MatrixXd checks =  // Q
-      first == nullptr ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count))
-                       : Eigen::MatrixXd(linear::qr(by_position).q.rightCols(left));
+  const Index left = count - by_position.cols();
+  const MatrixXd checks =  // Q
+      first == nullptr ? MatrixXd(MatrixXd::Identity(count, count))
+                       : MatrixXd(linear::qr(by_position).q.rightCols(left));
   BlockRows result{-linear::product(linear::transposed(checks),
-                                    Eigen::VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
+                                    VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
                    linear::product(linear::transposed(checks), by_parameter),
-                   variance * Eigen::MatrixXd::Identity(left, left),
+                   variance * MatrixXd::Identity(left, left),
                    {}};
   if (is_alone) {
-    result.by_reading = Eigen::MatrixXd::Zero(left, line->weight.size());
+    result.by_reading = MatrixXd::Zero(left, line->weight.size());
     result.by_reading(Eigen::all, rows) = checks.transpose();
   }
   return result;
@@ -214,8 +213,8 @@ BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& 
       Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
   const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
   const double variance = noise_.length_mm * noise_.length_mm;
-  return {-checks * line.residual_mm, checks * line.by_parameter,
-          variance * Eigen::Matrix2d::Identity(), checks};
+  return {-checks * line.residual_mm, checks * line.by_parameter, variance * Matrix2d::Identity(),
+          checks};
 }
 
 }  // namespace chaintrue::grid::observation

@@ -7,8 +7,8 @@ namespace chaintrue::grid::observation {
 
 const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};
 
-Eigen::Matrix2d covariance_of(const PointNoise& noise, const Eigen::Matrix2d& by_mark) {
-  return std::pow(noise.length_mm, 2) * Eigen::Matrix2d::Identity() +
+Matrix2d covariance_of(const PointNoise& noise, const Matrix2d& by_mark) {
+  return std::pow(noise.length_mm, 2) * Matrix2d::Identity() +
          std::pow(noise.position_mm, 2) * by_mark * by_mark.transpose();
 }
 

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/plane_vectors.hpp"
 #include "model/reading_model.hpp"
@@ -26,7 +27,7 @@ struct PointNoise {
 };
 
 /// C_i of (1).
-Eigen::Matrix2d covariance_of(const PointNoise& noise, const Eigen::Matrix2d& by_mark);
+Matrix2d covariance_of(const PointNoise& noise, const Matrix2d& by_mark);
 
 class ChainLengthReadings final : public Observation {
  public:
@@ -51,8 +52,7 @@ class ChainLengthReadings final : public Observation {
   }
 
   const Kind& kind() const override { return chain_lengths; }
-  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const override {
+  [[nodiscard]] tl::expected<VectorXd, Unreachable> predicted(const View& view) const override {
     const model::MarkFrame frame(view.chains().machine());
     std::vector<model::Visit> visits;
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -63,11 +63,11 @@ class ChainLengthReadings final : public Observation {
     if (!lengths)
       return tl::unexpected(
           model::mechanism_failure(lengths.error().reason).at(lengths.error().place));
-    Eigen::VectorXd all(rows());
+    VectorXd all(rows());
     for (std::size_t i = 0; i < lengths->size(); ++i) {
       model::ChainLengths own = (*lengths)[i];
       if (view.correction != nullptr) {
-        own = view.correction->at(places_[i].mark, own, Eigen::Matrix2d::Zero()).lengths;
+        own = view.correction->at(places_[i].mark, own, Matrix2d::Zero()).lengths;
       }
       const auto row = 2 * as_index(i);
       all.segment<2>(row) = vector_of(own);
@@ -99,7 +99,7 @@ class ChainLengthReadings final : public Observation {
           state.by_length.asDiagonal() * lengths_by_setting(view, *reading, place, settings);
       UnitState unit;
       unit.covariance = covariance_of(noise_, state.by_mark);
-      unit.places.push_back({i, Eigen::Matrix2d::Identity()});
+      unit.places.push_back({i, Matrix2d::Identity()});
       line.places.push_back(std::move(state));
       line.units.push_back(std::move(unit));
     }

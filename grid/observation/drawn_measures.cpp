@@ -5,14 +5,14 @@ namespace chaintrue::grid::observation {
 
 const Kind drawn_measures{"drawn_measures", "measure", "measures", "point", false};
 
-MeasureRow measure_row(DrawnMeasure::Kind kind, const Eigen::Vector2d& from,
-                       const Eigen::Vector2d& to, const Eigen::Vector2d& middle) {
-  const Eigen::Vector2d way = to - from;
+MeasureRow measure_row(DrawnMeasure::Kind kind, const Vector2d& from, const Vector2d& to,
+                       const Vector2d& middle) {
+  const Vector2d way = to - from;
   const double length = way.norm();
-  const Eigen::Vector2d along = way / length;
+  const Vector2d along = way / length;
   if (kind == DrawnMeasure::Kind::length)
-    return {length, -along.transpose(), along.transpose(), Eigen::RowVector2d::Zero()};
-  const Eigen::RowVector2d across(-along.y(), along.x());
+    return {length, -along.transpose(), along.transpose(), RowVector2d::Zero()};
+  const RowVector2d across(-along.y(), along.x());
   const double share = along.dot(middle - from) / length;
   return {across.dot(middle - from), (share - 1.0) * across, -share * across, across};
 }

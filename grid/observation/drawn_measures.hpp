@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
@@ -55,10 +56,10 @@ struct DrawnMeasure {
 /// ignored.
 struct MeasureRow {
   double value_mm = 0.0;
-  Eigen::RowVector2d by_from, by_to, by_middle;
+  RowVector2d by_from, by_to, by_middle;
 };
-MeasureRow measure_row(DrawnMeasure::Kind kind, const Eigen::Vector2d& from,
-                       const Eigen::Vector2d& to, const Eigen::Vector2d& middle);
+MeasureRow measure_row(DrawnMeasure::Kind kind, const Vector2d& from, const Vector2d& to,
+                       const Vector2d& middle);
 
 class DrawnMeasures final : public Observation {
  public:
@@ -95,7 +96,7 @@ class DrawnMeasures final : public Observation {
       const View& view, const Columns& columns) const override {
     const auto at = located(view, columns.parameters);
     if (!at) return tl::unexpected(at.error());
-    const Eigen::Index p = columns.parameters ? view.mechanism->values().size() : 0;
+    const Index p = columns.parameters ? view.mechanism->values().size() : 0;
     Linearisation line = blank(p + (columns.sheet ? 3 : 0));
     for (std::size_t k = 0; k < measures_.size(); ++k) {
       const auto row = as_index(k);
@@ -108,7 +109,7 @@ class DrawnMeasures final : public Observation {
                                            own.by_to * to.by_parameter +
                                            own.by_middle * middle.by_parameter;
       }
-      line.units.push_back({Eigen::MatrixXd::Constant(1, 1, m.sigma_mm * m.sigma_mm), {}});
+      line.units.push_back({MatrixXd::Constant(1, 1, m.sigma_mm * m.sigma_mm), {}});
     }
     return line;
   }
@@ -133,8 +134,8 @@ class DrawnMeasures final : public Observation {
  private:
   /// A point with its derivative by the parameters, 2 x p or 2 x 0.
   struct Located {
-    Eigen::Vector2d at;
-    Eigen::Matrix2Xd by_parameter;
+    Vector2d at;
+    Matrix2Xd by_parameter;
   };
   [[nodiscard]] tl::expected<std::vector<Located>, Unreachable> located(
       const View& view, bool with_parameters) const {
@@ -144,11 +145,11 @@ class DrawnMeasures final : public Observation {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto tool = view.mechanism->locate_by_first(points_[i].paid_out);
       if (!tool) return tl::unexpected(tool.error().at(i));
-      Located own{vector_of(*tool), Eigen::Matrix2Xd::Zero(2, 0)};
+      Located own{vector_of(*tool), Matrix2Xd::Zero(2, 0)};
       if (with_parameters) {
         const auto lengths = view.mechanism->predict(*tool, {}, wanted);
         if (!lengths) return tl::unexpected(lengths.error().at(i));
-        const Eigen::Matrix2d slope = lengths->by_position.topRows<2>();
+        const Matrix2d slope = lengths->by_position.topRows<2>();
         own.by_parameter = -slope.inverse() * lengths->by_parameter.topRows<2>();
       }
       all.push_back(std::move(own));

@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "model/machine.hpp"
 
@@ -98,8 +99,8 @@ double length_of(const MeasuredHoles& set, const HoleDistance& distance);
 std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// A place is 0.5 size + sign times its coordinate away from an edge.
 struct EdgeLine {
-  double size_mm;     ///< of the sheet, square to the edge
-  Eigen::Index axis;  ///< 0: x, of a left or right edge; 1: y
+  double size_mm;  ///< of the sheet, square to the edge
+  Index axis;      ///< 0: x, of a left or right edge; 1: y
   double sign;
 };
 EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge);

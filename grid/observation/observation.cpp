@@ -27,25 +27,23 @@ const std::vector<const Kind*>& kinds() {
   return kKinds;
 }
 
-Eigen::MatrixXd marginal_covariance(const Linearisation& line,
-                                    const Eigen::VectorXd& nuisance_sigma) {
-  const Eigen::MatrixXd shared = line.by_nuisance * nuisance_sigma.asDiagonal();
-  Eigen::MatrixXd covariance = shared * shared.transpose();
-  Eigen::Index row = 0;
+MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance_sigma) {
+  const MatrixXd shared = line.by_nuisance * nuisance_sigma.asDiagonal();
+  MatrixXd covariance = shared * shared.transpose();
+  Index row = 0;
   for (const UnitState& unit : line.units) {
-    const Eigen::Index n = unit.covariance.rows();
+    const Index n = unit.covariance.rows();
     covariance.block(row, row, n, n) += unit.covariance;
     row += n;
   }
   return covariance;
 }
 
-Eigen::Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
-                                    model::MarkPoint place,
-                                    const std::vector<model::Setting>& settings) {
+Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
+                             model::MarkPoint place, const std::vector<model::Setting>& settings) {
   const Eigen::Matrix<double, 2, 3> by_sheet =
       reading.position_jacobian * view.sheet.sensitivity(place);
-  Eigen::Matrix2Xd columns(2, std::ssize(settings));
+  Matrix2Xd columns(2, std::ssize(settings));
   for (std::size_t s = 0; s < settings.size(); ++s) {
     const auto column = as_index(s);
     if (model::is_of_sheet(settings[s])) {

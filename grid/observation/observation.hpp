@@ -25,7 +25,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -36,6 +35,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/effects/effect.hpp"
@@ -66,8 +66,8 @@ struct Place {
 
 /// Rows that are good or bad together.
 struct Unit {
-  Eigen::Index first_row = 0;
-  Eigen::Index rows = 1;
+  Index first_row = 0;
+  Index rows = 1;
   std::size_t index = 0;  ///< into the file's points, or distances
 };
 
@@ -80,7 +80,7 @@ struct SheetPrior {
   bool knows_y = true;
   bool knows_rotation = true;
   /// For x, y and the rotation.
-  Eigen::Vector3d sigma() const { return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad}; }
+  Vector3d sigma() const { return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad}; }
   /// True for a setting that is not the sheet's.
   bool knows(model::Setting setting) const {
     if (setting == model::Setting::sheet_x_mm) return knows_x;
@@ -95,13 +95,13 @@ class LengthCorrection {
   virtual ~LengthCorrection() = default;
   struct At {
     model::ChainLengths lengths;  ///< corrected
-    Eigen::Matrix2d by_mark;      ///< d(corrected)/d(mark)
+    Matrix2d by_mark;             ///< d(corrected)/d(mark)
     /// d(corrected)/d(the machine's own), one for each chain.
-    Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
+    Vector2d by_length = Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
   virtual At at(model::MarkPoint mark, model::ChainLengths lengths,
-                const Eigen::Matrix2d& by_mark) const = 0;
+                const Matrix2d& by_mark) const = 0;
 };
 
 /// The point of linearisation: a mechanism, the placement of the marks' sheet, and a correction of
@@ -145,9 +145,9 @@ struct Columns {
 struct ChainPlaceState {
   model::PointReading reading;  ///< of the machine alone
   model::MarkPoint mark;        ///< on the sheet; for a hole, where the machine puts it
-  Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
+  Matrix2d by_mark;             ///< d(L, R)/d(mark), corrected
   /// d(corrected)/d(the machine's own lengths), a chain each.
-  Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
+  Vector2d by_length = Vector2d::Ones();
 };
 
 /// How the chains at a place move a unit: D_i, rows x 2.
@@ -157,19 +157,19 @@ struct PlaceColumns {
 };
 
 struct UnitState {
-  Eigen::MatrixXd covariance;  ///< C_u
+  MatrixXd covariance;  ///< C_u
   std::vector<PlaceColumns> places;
   /// If single readings of a unit may be outliers: the effect of a millimetre of each on its rows,
   /// rows x readings; a zero column for a reading that does not count. Empty: the unit is an
   /// outlier as a whole.
-  Eigen::MatrixXd by_reading = {};
+  MatrixXd by_reading = {};
 };
 
 /// (1) about one view.
 struct Linearisation {
-  Eigen::VectorXd predicted;    ///< f, n
-  Eigen::MatrixXd by_setting;   ///< A, n x p
-  Eigen::MatrixXd by_nuisance;  ///< B, n x q
+  VectorXd predicted;    ///< f, n
+  MatrixXd by_setting;   ///< A, n x p
+  MatrixXd by_nuisance;  ///< B, n x q
   /// For each place; empty for kinds whose lengths no LengthCorrection corrects.
   std::vector<ChainPlaceState> places;
   std::vector<UnitState> units;
@@ -181,7 +181,7 @@ using Unreachable = Failure<model::MechanismReason, std::size_t>;
 /// A single reading of a unit.
 struct UnitReading {
   std::size_t unit = 0;
-  Eigen::Index reading = 0;  ///< a column of UnitState::by_reading
+  Index reading = 0;  ///< a column of UnitState::by_reading
   friend bool operator==(const UnitReading&, const UnitReading&) = default;
 };
 
@@ -192,17 +192,17 @@ class Observation {
   virtual ~Observation() = default;
   virtual const Kind& kind() const = 0;
 
-  Eigen::Index rows() const { return measured_.size(); }
+  Index rows() const { return measured_.size(); }
   const std::vector<Place>& places() const { return places_; }
   /// In the order of their rows, which they cover without a gap.
   const std::vector<Unit>& units() const { return units_; }
   /// y: the readings after exact corrections.
-  const Eigen::VectorXd& measured() const { return measured_; }
+  const VectorXd& measured() const { return measured_; }
   /// One sigma of each nuisance.
-  const Eigen::VectorXd& nuisance_sigma() const { return nuisance_sigma_; }
+  const VectorXd& nuisance_sigma() const { return nuisance_sigma_; }
   /// Number of nuisances, the last ones, that belong to the noise: the noise factor scales them
   /// too. Those before them have their stated sigmas.
-  virtual Eigen::Index nuisances_of_noise() const { return 0; }
+  virtual Index nuisances_of_noise() const { return 0; }
   /// Absent: the marks' frame is the bed's.
   const std::optional<SheetPrior>& sheet() const { return sheet_; }
   /// The visits' order is known.
@@ -220,8 +220,7 @@ class Observation {
   }
 
   /// f, visit by visit where the order is known; by default that of linearise().
-  [[nodiscard]] virtual tl::expected<Eigen::VectorXd, Unreachable> predicted(
-      const View& view) const {
+  [[nodiscard]] virtual tl::expected<VectorXd, Unreachable> predicted(const View& view) const {
     return linearise(view, {}).map([](Linearisation line) { return std::move(line.predicted); });
   }
   /// The sheet is this observation's own.
@@ -248,18 +247,18 @@ class Observation {
   Observation& operator=(Observation&&) = default;
 
   /// Zeros for so many settings, without places and units.
-  Linearisation blank(Eigen::Index settings) const {
-    return {Eigen::VectorXd::Zero(rows()),
-            Eigen::MatrixXd::Zero(rows(), settings),
-            Eigen::MatrixXd::Zero(rows(), nuisance_sigma_.size()),
+  Linearisation blank(Index settings) const {
+    return {VectorXd::Zero(rows()),
+            MatrixXd::Zero(rows(), settings),
+            MatrixXd::Zero(rows(), nuisance_sigma_.size()),
             {},
             {}};
   }
 
   std::vector<Place> places_;
   std::vector<Unit> units_;
-  Eigen::VectorXd measured_;
-  Eigen::VectorXd nuisance_sigma_;
+  VectorXd measured_;
+  VectorXd nuisance_sigma_;
   std::optional<SheetPrior> sheet_;
   bool ordered_;
   double noise_dof_;
@@ -281,13 +280,11 @@ const std::vector<const Kind*>& kinds();
 #undef CHAINTRUE_OBSERVATION
 
 /// C of all units and, separately, B diag(sigma^2) B'.
-Eigen::MatrixXd marginal_covariance(const Linearisation& line,
-                                    const Eigen::VectorXd& nuisance_sigma);
+MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance_sigma);
 
 /// How settings of two chains move the lengths at a place, 2 x p; `place` is the requested place on
 /// the sheet, with the machine's effects of the paper removed.
-Eigen::Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
-                                    model::MarkPoint place,
-                                    const std::vector<model::Setting>& settings);
+Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
+                             model::MarkPoint place, const std::vector<model::Setting>& settings);
 
 }  // namespace chaintrue::grid::observation

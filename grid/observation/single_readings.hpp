@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/precondition.hpp"
@@ -64,7 +65,7 @@ class SingleReadings final : public Observation {
       }
     }
     for (const ExtraReading& reading : readings_) {
-      line.units.push_back({Eigen::MatrixXd::Constant(1, 1, reading.sigma * reading.sigma), {}});
+      line.units.push_back({MatrixXd::Constant(1, 1, reading.sigma * reading.sigma), {}});
     }
     return line;
   }

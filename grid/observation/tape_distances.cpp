@@ -65,10 +65,9 @@ const Kind tape_distances{"tape_distances", "distance", "distances", "hole", fal
 
 DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<MarkPoint>& marks) {
   const auto count = std::ssize(set.distances);
-  DistanceGeometry geometry{Eigen::VectorXd::Zero(count),
-                            Eigen::MatrixXd::Zero(count, 2 * std::ssize(marks)),
-                            Eigen::MatrixXd::Zero(count, 2)};
-  for (Eigen::Index k = 0; k < count; ++k) {
+  DistanceGeometry geometry{VectorXd::Zero(count), MatrixXd::Zero(count, 2 * std::ssize(marks)),
+                            MatrixXd::Zero(count, 2)};
+  for (Index k = 0; k < count; ++k) {
     const HoleDistance& distance = set.distances[as_size(k)];
     const MarkPoint from = marks.at(distance.from);
     const auto a = 2 * as_index(distance.from);
@@ -82,9 +81,9 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
     }
     const MarkPoint to = marks.at(distance.to);
     const auto b = 2 * as_index(distance.to);
-    const Eigen::Vector2d way = difference(from, to);
+    const Vector2d way = difference(from, to);
     geometry.predicted_mm[k] = way.norm();
-    const Eigen::Vector2d unit = way / way.norm();
+    const Vector2d unit = way / way.norm();
     geometry.by_mark.block<1, 2>(k, a) = unit.transpose();
     geometry.by_mark.block<1, 2>(k, b) = -unit.transpose();
   }
@@ -92,18 +91,17 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
 }
 
 DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry) {
-  const Eigen::Index count = geometry.predicted_mm.size();
+  const Index count = geometry.predicted_mm.size();
   DistanceNoise noise;
   noise.tape_mm2.resize(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
+  for (Index k = 0; k < count; ++k) {
     noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[as_size(k)]), 2);
   }
   noise.holes_mm2 =
       set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
   noise.size_mm2 =
       std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
-  noise.tape_zero_mm2 =
-      Eigen::MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
+  noise.tape_zero_mm2 = MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
   return noise;
 }
 
@@ -144,11 +142,11 @@ SheetPrior sheet_measured(const MeasuredHoles& set) {
   measured.knows_x = measured.knows_y = measured.knows_rotation = false;
   for (const HoleDistance& a : set.distances) {
     if (!a.edge) continue;
-    const Eigen::Index axis = edge_line(set, *a.edge).axis;
+    const Index axis = edge_line(set, *a.edge).axis;
     (axis == 0 ? measured.knows_x : measured.knows_y) = true;
     for (const HoleDistance& b : set.distances) {
       if (!b.edge || edge_line(set, *b.edge).axis != axis) continue;
-      const Eigen::Vector2d apart =
+      const Vector2d apart =
           difference(set.holes.at(a.from).commanded, set.holes.at(b.from).commanded);
       if (std::abs(apart[1 - axis]) > kApartMm) measured.knows_rotation = true;
     }

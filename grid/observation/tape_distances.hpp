@@ -23,7 +23,6 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
 #include <string>
@@ -31,6 +30,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "grid/observation/observation.hpp"
 
@@ -38,9 +38,9 @@ namespace chaintrue::grid::observation {
 
 /// (1) at given places, with its derivative.
 struct DistanceGeometry {
-  Eigen::VectorXd predicted_mm;  ///< n
-  Eigen::MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
-  Eigen::MatrixXd by_size;       ///< n x 2, by the sheet's excess width and height
+  VectorXd predicted_mm;  ///< n
+  MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
+  MatrixXd by_size;       ///< n x 2, by the sheet's excess width and height
 };
 DistanceGeometry distance_geometry(const MeasuredHoles& set,
                                    const std::vector<model::MarkPoint>& marks);
@@ -48,10 +48,10 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set,
 /// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
 /// of the zero offset.
 struct DistanceNoise {
-  Eigen::VectorXd tape_mm2;
-  Eigen::MatrixXd holes_mm2;
-  Eigen::MatrixXd size_mm2;
-  Eigen::MatrixXd tape_zero_mm2;
+  VectorXd tape_mm2;
+  MatrixXd holes_mm2;
+  MatrixXd size_mm2;
+  MatrixXd tape_zero_mm2;
 };
 DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry);
 
@@ -86,7 +86,7 @@ class TapeDistances final : public Observation {
 
   const Kind& kind() const override { return tape_distances; }
   /// measured() are the readings less the zero offset.
-  Eigen::Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
+  Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
     const std::vector<model::Setting> settings = settings_in(columns);
@@ -96,24 +96,23 @@ class TapeDistances final : public Observation {
     for (const ChainPlaceState& state : *states) marks.push_back(state.mark);
     const double factor = tape_factor(view.chains().machine());
     const DistanceGeometry geometry = distance_geometry(set_, marks);
-    const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
+    const MatrixXd by_mark = factor * geometry.by_mark;
     Linearisation line = blank(std::ssize(settings));
     line.predicted = factor * geometry.predicted_mm;
     for (std::size_t i = 0; i < states->size(); ++i) {
       const ChainPlaceState& place = (*states)[i];
       // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
-      const Eigen::Matrix2Xd lengths =
-          place.by_length.asDiagonal() *
-          lengths_by_setting(view, place.reading, place.mark, settings);
-      const Eigen::Matrix2Xd marks_by_setting = -place.by_mark.inverse() * lengths;
+      const Matrix2Xd lengths = place.by_length.asDiagonal() *
+                                lengths_by_setting(view, place.reading, place.mark, settings);
+      const Matrix2Xd marks_by_setting = -place.by_mark.inverse() * lengths;
       line.by_setting += by_mark.middleCols<2>(2 * as_index(i)) * marks_by_setting;
     }
-    line.by_nuisance << factor * geometry.by_size, Eigen::VectorXd::Ones(rows()), by_mark;
-    for (Eigen::Index k = 0; k < rows(); ++k) {
+    line.by_nuisance << factor * geometry.by_size, VectorXd::Ones(rows()), by_mark;
+    for (Index k = 0; k < rows(); ++k) {
       const double sigma = sigma_of(set_, set_.distances[as_size(k)]);
-      UnitState unit{Eigen::MatrixXd::Constant(1, 1, sigma * sigma), {}};
+      UnitState unit{MatrixXd::Constant(1, 1, sigma * sigma), {}};
       for (std::size_t i = 0; i < states->size(); ++i) {
-        const Eigen::RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
+        const RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
         if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
       }
       line.units.push_back(std::move(unit));
@@ -154,7 +153,7 @@ class TapeDistances final : public Observation {
       model::ChainLengths own = paid_out;
       // The machine's lengths that equal the paid-out ones after correction at a mark.
       const auto correct = [&](model::MarkPoint mark) {
-        const auto there = view.correction->at(mark, own, Eigen::Matrix2d::Zero()).lengths;
+        const auto there = view.correction->at(mark, own, Matrix2d::Zero()).lengths;
         own = {paid_out.left_mm - (there.left_mm - own.left_mm),
                paid_out.right_mm - (there.right_mm - own.right_mm)};
       };
@@ -187,10 +186,10 @@ class TapeDistances final : public Observation {
       : Observation(false, set.noise_dof), set_(std::move(set)) {}
 
   void state_nuisances() {
-    const Eigen::Index of_holes = 2 * std::ssize(set_.holes);
+    const Index of_holes = 2 * std::ssize(set_.holes);
     nuisance_sigma_.resize(3 + of_holes);
     nuisance_sigma_ << set_.sheet.size_sigma_mm, set_.sheet.size_sigma_mm,
-        tape_zero_sigma_mm(set_.tape), Eigen::VectorXd::Constant(of_holes, set_.hole_sigma_mm);
+        tape_zero_sigma_mm(set_.tape), VectorXd::Constant(of_holes, set_.hole_sigma_mm);
     nuisance_sigma_ = nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
   }
 

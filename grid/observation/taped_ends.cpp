@@ -14,13 +14,13 @@ using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
 MaybePlaced placed(const model::Mechanism& mechanism, const TapeEnd& end,
                    const model::ToolPosition& place) {
-  const Eigen::Index parameters = mechanism.values().size();
+  const Index parameters = mechanism.values().size();
   if (const auto* hole = std::get_if<AtHole>(&end)) return placed_hole(mechanism, *hole);
   if (const auto* fixed = std::get_if<AtFixedPoint>(&end)) {
     const model::FixedPoint point = mechanism.fixed_points().at(fixed->index);
     return PlacedEnd{vector_of(point.at), point.by_parameter};
   }
-  return PlacedEnd{vector_of(place), Eigen::Matrix2Xd::Zero(2, parameters)};
+  return PlacedEnd{vector_of(place), Matrix2Xd::Zero(2, parameters)};
 }
 
 }  // namespace
@@ -42,9 +42,9 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechan
         !(std::abs(hole.lengths_mm[row] - there->lengths_mm[row]) < kTogetherMm))
       return tl::unexpected(kNoHole);
   }
-  Eigen::Matrix2d by_position;
-  Eigen::Matrix2Xd by_parameter(2, mechanism.values().size());
-  Eigen::Index row = 0;
+  Matrix2d by_position;
+  Matrix2Xd by_parameter(2, mechanism.values().size());
+  Index row = 0;
   for (std::size_t i = 0; i < hole.deciding.size() && row < 2; ++i) {
     if (!hole.deciding[i]) continue;
     by_position.row(row) = there->by_position.row(as_index(i));
@@ -61,8 +61,8 @@ tl::expected<DistanceLine, model::MechanismFailure> distance_line(
   const auto to = placed(mechanism, distance.to, places[1]);
   if (!to) return tl::unexpected(to.error());
   const model::FrameScale scale = mechanism.frame_scale();
-  const Eigen::Vector2d way = to->at - from->at;
-  const Eigen::RowVector2d along = scale.factor * way.normalized().transpose();
+  const Vector2d way = to->at - from->at;
+  const RowVector2d along = scale.factor * way.normalized().transpose();
   return DistanceLine{
       scale.factor * way.norm(),
       {-along, along},

@@ -18,11 +18,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <tl/expected.hpp>
 #include <variant>
 
+#include "grid/eigen.hpp"
 #include "model/mechanism.hpp"
 
 namespace chaintrue::grid::observation {
@@ -36,7 +36,7 @@ struct AtFixedPoint {
   std::size_t index = 0;
 };
 struct AtHole {
-  Eigen::VectorXd lengths_mm;  ///< paid out
+  VectorXd lengths_mm;         ///< paid out
   std::vector<bool> deciding;  ///< two lengths that determine the tool's position
   model::ToolPosition meant;   ///< the commanded position
 };
@@ -52,14 +52,14 @@ struct TapedDistance {
 /// (1) and its derivatives: by the positions of its ends, if they are places, and by theta.
 struct DistanceLine {
   double predicted_mm = 0.0;
-  std::array<Eigen::RowVector2d, 2> by_end;
-  Eigen::RowVectorXd by_parameter;
+  std::array<RowVector2d, 2> by_end;
+  RowVectorXd by_parameter;
 };
 
 /// An end in the mechanism's frame, and its derivative by theta.
 struct PlacedEnd {
-  Eigen::Vector2d at;
-  Eigen::Matrix2Xd by_parameter;
+  Vector2d at;
+  Matrix2Xd by_parameter;
 };
 [[nodiscard]] tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(
     const model::Mechanism& mechanism, const AtHole& hole);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
@@ -40,21 +41,21 @@ class Separation {
 
   /// (1), both chains.
   model::PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
-    std::vector<Eigen::Index> rows;
+    std::vector<Index> rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * as_index(point));
       rows.push_back(rows.back() + 1);
     }
     const auto count = std::ssize(rows);
-    Eigen::MatrixXd k = covariance_(rows, rows);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      for (Eigen::Index j = i % 2; j < count; j += 2)
+    MatrixXd k = covariance_(rows, rows);
+    for (Index i = 0; i < count; ++i) {
+      for (Index j = i % 2; j < count; j += 2)
         k(i, j) += model::kZeroShiftSigmaMm * model::kZeroShiftSigmaMm;
     }
-    Eigen::MatrixXd grown = Eigen::MatrixXd::Zero(count, 2);
-    for (Eigen::Index i = 0; i < count; ++i)
+    MatrixXd grown = MatrixXd::Zero(count, 2);
+    for (Index i = 0; i < count; ++i)
       grown(i, i % 2) = model::kPitchGrowthSigma * readings_.lengths_mm[rows[as_size(i)]];
-    const Eigen::MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
+    const MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }
 
@@ -66,7 +67,7 @@ class Separation {
 
  private:
   const CheckReadings& readings_;
-  Eigen::MatrixXd covariance_;
+  MatrixXd covariance_;
 };
 
 /// Exchanges points as long as an exchange is an improvement, from evenly spaced ones.

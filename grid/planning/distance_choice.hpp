@@ -18,13 +18,13 @@
 /// tape's part.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/planning/holes_plan.hpp"
@@ -33,7 +33,7 @@
 namespace chaintrue::grid {
 
 /// The machine's, then the sheet's shift in x, in y and its rotation.
-inline constexpr Eigen::Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
+inline constexpr Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
 
 /// A candidate position of a hole, and the derivative of the hole's position on the sheet by the
 /// unknowns.
@@ -48,8 +48,8 @@ class DistanceChooser {
   using Holes = std::vector<const PlannedPlace*>;
 
   /// `prior` is S before any measurement; `root` is L.
-  DistanceChooser(const model::Machine& machine, const HolesPlanRequest& request,
-                  Eigen::MatrixXd prior, Eigen::MatrixXd root)
+  DistanceChooser(const model::Machine& machine, const HolesPlanRequest& request, MatrixXd prior,
+                  MatrixXd root)
       : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
     frame_.machine = machine;
     frame_.tape.sigma_mm = request.tape_sigma_mm;
@@ -72,10 +72,10 @@ class DistanceChooser {
     Choice choice;
     choice.variance_mm2 = linear::carried(root_, prior_).trace();
     std::vector<bool> taken(all.distances.size(), false);
-    for (Eigen::Index i = 0; i < wanted; ++i) {
-      Eigen::Index best = -1;
+    for (Index i = 0; i < wanted; ++i) {
+      Index best = -1;
       double best_gain = 0.0;
-      for (Eigen::Index k = 0; k < count; ++k) {
+      for (Index k = 0; k < count; ++k) {
         if (taken[as_size(k)]) continue;
         const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
         if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
@@ -85,9 +85,9 @@ class DistanceChooser {
       taken[as_size(best)] = true;
       choice.distances.push_back(all.distances[as_size(best)]);
       choice.variance_mm2 -= best_gain;
-      const Eigen::VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
-      all.pull -= Eigen::VectorXd(all.pull.col(best)) * with.transpose();
-      all.known -= Eigen::VectorXd(all.known.col(best)) * with.transpose();
+      const VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
+      all.pull -= VectorXd(all.pull.col(best)) * with.transpose();
+      all.known -= VectorXd(all.known.col(best)) * with.transpose();
     }
     return choice;
   }
@@ -132,11 +132,11 @@ class DistanceChooser {
   }
 
   /// S after these measurements.
-  Eigen::MatrixXd covariance(const Holes& holes, const std::vector<HoleDistance>& distances) const {
+  MatrixXd covariance(const Holes& holes, const std::vector<HoleDistance>& distances) const {
     const Measurable measured = measurable(holes, distances);
-    Eigen::MatrixXd k = measured.known;
+    MatrixXd k = measured.known;
     k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
-    const Eigen::MatrixXd cross = linear::product(prior_, linear::transposed(measured.by_unknown));
+    const MatrixXd cross = linear::product(prior_, linear::transposed(measured.by_unknown));
     return prior_ - linear::product(cross, linear::Cholesky(std::move(k)).solve(cross.transpose()));
   }
 
@@ -144,9 +144,9 @@ class DistanceChooser {
   /// All distances that a tape can measure, before any measurement.
   struct Measurable {
     std::vector<HoleDistance> distances;
-    Eigen::MatrixXd by_unknown;  ///< A
-    Eigen::MatrixXd known;       ///< K without the tape's part
-    Eigen::MatrixXd pull;        ///< b
+    MatrixXd by_unknown;  ///< A
+    MatrixXd known;       ///< K without the tape's part
+    MatrixXd pull;        ///< b
   };
   Measurable measurable(const Holes& holes, std::vector<HoleDistance> distances) const {
     MeasuredHoles set = frame_;
@@ -155,13 +155,13 @@ class DistanceChooser {
     for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks);
     const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
-    Eigen::MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
+    MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
     for (std::size_t i = 0; i < holes.size(); ++i) {
       marks_by_unknown.middleRows<2>(2 * as_index(i)) = holes[i]->by_unknown;
     }
     Measurable all;
     all.by_unknown = geometry.by_mark * marks_by_unknown;
-    const Eigen::MatrixXd cross = prior_ * all.by_unknown.transpose();
+    const MatrixXd cross = prior_ * all.by_unknown.transpose();
     all.known = all.by_unknown * cross + noise.holes_mm2 + noise.size_mm2 + noise.tape_zero_mm2;
     all.pull = root_ * cross;
     all.distances = std::move(set.distances);
@@ -197,17 +197,17 @@ class DistanceChooser {
 
   /// trace(C S) after measuring those with these numbers.
   double variance_mm2(const Measurable& all, const std::vector<std::size_t>& chosen) const {
-    Eigen::MatrixXd k = all.known(chosen, chosen);
+    MatrixXd k = all.known(chosen, chosen);
     k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
-    const Eigen::MatrixXd pull = all.pull(Eigen::all, chosen);
-    const Eigen::MatrixXd half = linear::Cholesky(std::move(k)).half_solve(pull.transpose());
+    const MatrixXd pull = all.pull(Eigen::all, chosen);
+    const MatrixXd half = linear::Cholesky(std::move(k)).half_solve(pull.transpose());
     return linear::carried(root_, prior_).trace() - half.squaredNorm();
   }
 
   HolesPlanRequest request_;
   MeasuredHoles frame_;  ///< the machine, the sheet and the sigmas, without holes
-  Eigen::MatrixXd prior_;
-  Eigen::MatrixXd root_;
+  MatrixXd prior_;
+  MatrixXd root_;
 };
 
 }  // namespace chaintrue::grid

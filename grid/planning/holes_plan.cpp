@@ -32,9 +32,9 @@ using Holes = std::vector<const PlannedPlace*>;
 /// Derivatives by the unknowns of a plan, kPlanUnknowns columns.
 struct ToolError {
   /// L: L' L is the mean squared motion of the tool over the bed.
-  Eigen::MatrixXd root;
+  MatrixXd root;
   /// The part common to all positions: shift in x, in y (mm) and rotation (rad).
-  Eigen::MatrixXd whole;
+  MatrixXd whole;
 };
 
 /// Derivative by the unknowns of the position on the sheet that is cut with the chain lengths of a
@@ -63,12 +63,11 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
   }
   const auto count = std::ssize(places);
   if (count < kPlanUnknowns) {
-    return {Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns),
-            Eigen::MatrixXd::Zero(3, kPlanUnknowns)};
+    return {MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns), MatrixXd::Zero(3, kPlanUnknowns)};
   }
-  Eigen::MatrixXd motion(2 * count, kPlanUnknowns);
-  Eigen::MatrixXd rigid(2 * count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
+  MatrixXd motion(2 * count, kPlanUnknowns);
+  MatrixXd rigid(2 * count, 3);
+  for (Index i = 0; i < count; ++i) {
     const PlannedPlace& place = places[as_size(i)];
     motion.middleRows<2>(2 * i) = place.by_unknown;
     rigid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(place.place);
@@ -211,16 +210,15 @@ void check(const model::Machine& machine, const HolesPlanRequest& request) {
 }
 
 /// Settings and scales, and the sheet's placement if it matters.
-std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
-                                           const Eigen::MatrixXd& after,
-                                           const std::optional<Eigen::MatrixXd>& whole) {
+std::vector<PlannedKnowledge> knowledge_of(const MatrixXd& before, const MatrixXd& after,
+                                           const std::optional<MatrixXd>& whole) {
   struct Known {
     const char* what;
     const char* unit;
-    Eigen::RowVectorXd combination;
+    RowVectorXd combination;
   };
   const auto row = [](std::initializer_list<double> machine) {
-    Eigen::RowVectorXd combination = Eigen::RowVectorXd::Zero(kPlanUnknowns);
+    RowVectorXd combination = RowVectorXd::Zero(kPlanUnknowns);
     std::copy(machine.begin(), machine.end(), combination.begin());
     return combination;
   };
@@ -243,8 +241,8 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
   }
   std::vector<PlannedKnowledge> result;
   for (const Known& known : rows) {
-    const auto sigma = [&known](const Eigen::MatrixXd& covariance) {
-      const Eigen::RowVectorXd& c = known.combination;
+    const auto sigma = [&known](const MatrixXd& covariance) {
+      const RowVectorXd& c = known.combination;
       return std::sqrt(std::max(0.0, (c * covariance * c.transpose())(0)));
     };
     result.push_back({known.what, known.unit, sigma(before), sigma(after)});
@@ -253,8 +251,8 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
 }
 
 /// The sheet's placement has no prior if it matters.
-Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
+MatrixXd prior_of(const model::Machine& machine, bool edges) {
+  MatrixXd prior = MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
   prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =
       estimation::stated_knowledge(machine).covariance;
   if (edges) prior.diagonal().tail<3>() = observation::kSheetByEdges.sigma().cwiseAbs2();
@@ -266,7 +264,7 @@ constexpr double kOneDirection = 0.9962;
 
 struct Pattern {
   DetectableEffect found;
-  Eigen::VectorXd white;  ///< change of the distances at the effect's nominal size
+  VectorXd white;  ///< change of the distances at the effect's nominal size
 };
 
 bool shows_in_distances(const model::effects::Effect& effect) {
@@ -284,7 +282,7 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
   const observation::Columns columns{.parameters = true, .sheet = true};
   const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
   if (!line) return {};
-  Eigen::VectorXd prior(line->by_setting.cols());
+  VectorXd prior(line->by_setting.cols());
   prior << estimation::stated_knowledge(*set.machine)
                .covariance.diagonal()
                .head(model::kMachineSettings.size()),
@@ -303,7 +301,7 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
       const auto with = distances->predicted({model::ReadingModel(machine), {}});
       if (!with) continue;
       Pattern& own = patterns.emplace_back();
-      own.white = covariance.half_solve(Eigen::VectorXd(*with - line->predicted));
+      own.white = covariance.half_solve(VectorXd(*with - line->predicted));
       own.found.effect = effect->id;
       own.found.side = model::effects::name(side);
       own.found.sigmas = own.white.norm();
@@ -314,9 +312,8 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
 
 }  // namespace
 
-double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd root =
-      tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
+double tool_sigma_mm(const model::Machine& machine, const MatrixXd& covariance) {
+  const MatrixXd root = tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
   return std::sqrt(std::max(0.0, linear::carried(root, covariance).trace()));
 }
 
@@ -342,14 +339,14 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
                               "margin leaves out those it cannot reach",
                               places.size()));
   }
-  const Eigen::MatrixXd prior = prior_of(machine, request.edges);
+  const MatrixXd prior = prior_of(machine, request.edges);
   const ToolError error = tool_error(machine, request.edges);
   const DistanceChooser chooser(machine, request, prior, error.root);
   Holes holes = spread(places, as_size(request.holes));
   DistanceChooser::Choice choice = move_holes(
       chooser, places, least_apart_mm(machine, request.margin_mm), request.progress, holes);
   choice = chooser.exchange(holes, std::move(choice));
-  const Eigen::MatrixXd after = chooser.covariance(holes, choice.distances);
+  const MatrixXd after = chooser.covariance(holes, choice.distances);
   HolesPlan plan;
   plan.set = set_of(machine, request, holes, choice.distances);
   plan.expected_rms_mm = std::sqrt(choice.variance_mm2);

@@ -18,11 +18,11 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/fitted_distances.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/progress.hpp"
@@ -89,7 +89,7 @@ struct HolesPlan {
 
 /// Root mean square over the bed of the tool's sigma for a covariance of the machine's unknowns,
 /// for the best placement of the sheet.
-double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance);
+double tool_sigma_mm(const model::Machine& machine, const MatrixXd& covariance);
 
 // The catalogue's effects as observed by a set of distances: the size of each after projection on
 // the settings, and which of them are collinear. Secants at the nominal strength, whitened by K =

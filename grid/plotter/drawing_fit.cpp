@@ -28,9 +28,8 @@ constexpr double kMostNoiseFactor = 5.0;
 constexpr double kMostRejectedShare = 0.2;
 
 /// In the order of the drawing's measures.
-Eigen::VectorXd in_file_order(const observation::DrawnMeasures& readings,
-                              const Eigen::VectorXd& rows) {
-  Eigen::VectorXd ordered(rows.size());
+VectorXd in_file_order(const observation::DrawnMeasures& readings, const VectorXd& rows) {
+  VectorXd ordered(rows.size());
   for (const observation::Unit& unit : readings.units())
     ordered[as_index(unit.index)] = rows[unit.first_row];
   return ordered;
@@ -88,14 +87,14 @@ std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
 }
 
 /// The measures of the next drawing with these settings typed in; empty if it cannot be drawn.
-std::optional<Eigen::VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFit& fit) {
-  std::vector<Eigen::Vector2d> pens;
+std::optional<VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFit& fit) {
+  std::vector<Vector2d> pens;
   for (const DrawnCross& cross : drawing.crosses) {
     const auto pen = pen_of_command(drawing.firmware, fit.to_set, *fit.mechanism, cross.commanded);
     if (!pen) return std::nullopt;
     pens.push_back(vector_of(*pen));
   }
-  Eigen::VectorXd values(std::ssize(drawing.measures));
+  VectorXd values(std::ssize(drawing.measures));
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const DrawnMeasure& m = drawing.measures[i];
     values[as_index(i)] =
@@ -149,7 +148,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(DrawingReason::cross_out_of_reach,
                   sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
   }
-  const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<Eigen::VectorXd> {
+  const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<VectorXd> {
     const auto values = readings->predicted(View(machine.with_values(machine.values())));
     if (!values) return std::nullopt;
     return in_file_order(*readings, *values);
@@ -160,7 +159,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   if (!estimate) return tl::unexpected(estimate.error());
   raise_to_rounding(drawing, *estimate);
 
-  const Eigen::VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);
+  const VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);
   std::vector<bool> rejected(drawing.measures.size(), false);
   for (const estimation::UnitEstimate& unit : estimate->units)
     rejected[readings->units()[unit.unit].index] = unit.is_rejected();

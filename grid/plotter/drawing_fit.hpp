@@ -17,12 +17,12 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/plotter/test_drawing.hpp"
 #include "model/failure.hpp"
 
@@ -49,7 +49,7 @@ struct FittedMeasure {
 struct DrawingFit {
   std::shared_ptr<const model::PlotterMechanism> mechanism;  ///< as found
   std::vector<PlotterSetting> settings;
-  Eigen::MatrixXd covariance;  ///< of these settings
+  MatrixXd covariance;  ///< of these settings
   /// In the order of the drawing's measures.
   std::vector<FittedMeasure> measures;
   /// The noise found, as a multiple of the sigmas that went in.

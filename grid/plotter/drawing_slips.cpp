@@ -32,7 +32,7 @@ constexpr double kFittedToSheet = 0.012;
 constexpr double kOfAFactor = 4.6;
 
 /// Measured over drawn by the machine as set, of all lengths.
-double median_share(const TestDrawing& drawing, const Eigen::VectorXd& as_set) {
+double median_share(const TestDrawing& drawing, const VectorXd& as_set) {
   std::vector<double> shares;
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     if (drawing.measures[i].kind == Kind::length)
@@ -43,7 +43,7 @@ double median_share(const TestDrawing& drawing, const Eigen::VectorXd& as_set) {
 
 /// A possible slip in lengths, bows or all. `rows` is the trend's input from a drawing.
 std::vector<Transformation> drawing_transformations(
-    const TestDrawing& drawing, const Eigen::VectorXd& as_set,
+    const TestDrawing& drawing, const VectorXd& as_set,
     const std::function<TrendRows(const TestDrawing&)>& rows) {
   input_checks::Transformations<TestDrawing> list(drawing, rows);
   const auto scale = [&](ProblemKind kind, std::string sentence, auto takes,
@@ -91,13 +91,13 @@ DrawingReason reason_of(ProblemKind kind) {
 }
 
 /// The effect of one unit of each parameter.
-Eigen::MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) {
+MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) {
   constexpr double kStep = 0.1;
-  const Eigen::VectorXd& values = machine.values();
+  const VectorXd& values = machine.values();
   const auto at_stated = drawn(*machine.with_values(values));
-  Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(at_stated->size(), values.size());
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    Eigen::VectorXd other = values;
+  MatrixXd by_parameter = MatrixXd::Zero(at_stated->size(), values.size());
+  for (Index k = 0; k < values.size(); ++k) {
+    VectorXd other = values;
     other[k] += kStep;
     if (const auto then = drawn(*machine.with_values(other)))
       by_parameter.col(k) = (*then - *at_stated) / kStep;
@@ -130,12 +130,12 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const 
   if (auto slip = bow_along_its_line(drawing)) return slip;
   const auto as_set = drawn(machine);
   if (!as_set) return std::nullopt;
-  const Eigen::MatrixXd basis = derivatives(drawn, machine);
-  Eigen::VectorXd sigma(basis.cols());
-  for (Eigen::Index k = 0; k < sigma.size(); ++k)
+  const MatrixXd basis = derivatives(drawn, machine);
+  VectorXd sigma(basis.cols());
+  for (Index k = 0; k < sigma.size(); ++k)
     sigma[k] = std::max(1e-3, machine.parameters()[as_size(k)].prior_sigma.value_or(1e3));
   const std::function<TrendRows(const TestDrawing&)> rows = [&](const TestDrawing& meant) {
-    TrendRows own{basis, Eigen::MatrixXd(basis.rows(), 1)};
+    TrendRows own{basis, MatrixXd(basis.rows(), 1)};
     for (std::size_t i = 0; i < meant.measures.size(); ++i) {
       const auto row = as_index(i);
       own.off_mm(row, 0) = meant.measures[i].value_mm - (*as_set)[row];
@@ -156,8 +156,7 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const 
   return DrawingFailure{reason_of(found->kind), found->sentence()};
 }
 
-std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
-                                             const Eigen::VectorXd& found,
+std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing, const VectorXd& found,
                                              const std::vector<bool>& rejected) {
   // Both then within what 4.5 sigmas of a reading and the estimate allow.
   constexpr double kFitsSigmas = 8.0;

@@ -4,16 +4,16 @@
 /// predicted for the machine as set or as found. Private to grid/plotter.
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <optional>
 
+#include "grid/eigen.hpp"
 #include "grid/plotter/drawing_fit.hpp"
 
 namespace chaintrue::grid {
 
 /// The measures of a machine's drawing, in the drawing's order; empty if it cannot draw one.
-using DrawnValues = std::function<std::optional<Eigen::VectorXd>(const model::Mechanism&)>;
+using DrawnValues = std::function<std::optional<VectorXd>(const model::Mechanism&)>;
 
 /// Slips of the measures as a whole, compared with what the stated `machine` would have drawn:
 /// another unit, bows of the opposite sign or a scaled page, for all measures or some; and a bow
@@ -24,7 +24,7 @@ using DrawnValues = std::function<std::optional<Eigen::VectorXd>(const model::Me
 
 /// Two rejected measures that fit `found` once exchanged.
 [[nodiscard]] std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
-                                                           const Eigen::VectorXd& found,
+                                                           const VectorXd& found,
                                                            const std::vector<bool>& rejected);
 
 }  // namespace chaintrue::grid

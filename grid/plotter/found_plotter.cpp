@@ -11,10 +11,10 @@ using model::Side;
 namespace {
 
 /// Above the diagonal, row by row.
-std::vector<double> correlations_of(const Eigen::MatrixXd& covariance) {
+std::vector<double> correlations_of(const MatrixXd& covariance) {
   std::vector<double> upper;
-  for (Eigen::Index row = 0; row < covariance.rows(); ++row) {
-    for (Eigen::Index column = row + 1; column < covariance.cols(); ++column) {
+  for (Index row = 0; row < covariance.rows(); ++row) {
+    for (Index column = row + 1; column < covariance.cols(); ++column) {
       const double both = std::sqrt(covariance(row, row) * covariance(column, column));
       upper.push_back(both > 0.0 ? covariance(row, column) / both : 0.0);
     }
@@ -24,14 +24,14 @@ std::vector<double> correlations_of(const Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-Eigen::MatrixXd FoundPlotter::covariance() const {
-  Eigen::VectorXd sigma(+model::kPlotterParameters);
+MatrixXd FoundPlotter::covariance() const {
+  VectorXd sigma(+model::kPlotterParameters);
   sigma << pin_spacing_mm.sigma, pin_rise_mm.sigma, zero_left_mm.sigma, zero_right_mm.sigma,
       scale_left_mm_per_m.sigma, scale_right_mm_per_m.sigma;
-  Eigen::MatrixXd covariance = sigma.cwiseAbs2().asDiagonal();
+  MatrixXd covariance = sigma.cwiseAbs2().asDiagonal();
   std::size_t next = 0;
-  for (Eigen::Index row = 0; row < sigma.size(); ++row) {
-    for (Eigen::Index column = row + 1; column < sigma.size(); ++column, ++next)
+  for (Index row = 0; row < sigma.size(); ++row) {
+    for (Index column = row + 1; column < sigma.size(); ++column, ++next)
       covariance(row, column) = covariance(column, row) =
           correlations.at(next) * sigma[row] * sigma[column];
   }

@@ -9,10 +9,10 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/plotter/drawing_fit.hpp"
 
 namespace chaintrue::grid {
@@ -34,7 +34,7 @@ struct FoundPlotter {
   std::vector<double> correlations;
 
   /// For all six.
-  Eigen::MatrixXd covariance() const;
+  MatrixXd covariance() const;
 };
 
 struct KnownPlotter {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "grid/eigen.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -84,7 +86,7 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   const BedPoint by = set.pins_middle;
   return {best,
           spread_about(found->values(), plotter.found->covariance(),
-                       [&](const Eigen::VectorXd& values) {
+                       [&](const VectorXd& values) {
                          auto other = found->with_values(values);
                          const auto laid = laid_on(pens_of(*other, of_fit), on_page);
                          return PlacedMechanism{std::move(other), {laid}};

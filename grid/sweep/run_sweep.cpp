@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
@@ -76,7 +77,7 @@ model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64
 
 class ErrorSum {
  public:
-  void add(const Eigen::Vector2d& chain_mm, const Eigen::Vector2d& tool_mm) {
+  void add(const Vector2d& chain_mm, const Vector2d& tool_mm) {
     chain_squares_ += chain_mm.squaredNorm();
     tool_squares_ += tool_mm.squaredNorm();
     result_.chain_max_mm = std::max(result_.chain_max_mm, chain_mm.lpNorm<Eigen::Infinity>());
@@ -124,7 +125,7 @@ CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const Com
     }
     model::ChainLengths disturbed{};
     if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
-    const Eigen::Vector2d chain =
+    const Vector2d chain =
         difference(answer->lengths, real->lengths) - level.unmodelled_mm * vector_of(disturbed);
     errors.add(chain, real->position_jacobian.inverse() * chain);
   }

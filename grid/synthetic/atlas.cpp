@@ -10,6 +10,7 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/containers.hpp"
+#include "grid/eigen.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
@@ -104,7 +105,7 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition c
   const auto paid_out =
       machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
   if (!paid_out) return std::nullopt;
-  const Eigen::VectorXd& lengths = paid_out->lengths_mm;
+  const VectorXd& lengths = paid_out->lengths_mm;
   std::vector<bool> counting(as_size(lengths.size()), false);
   counting[0] = counting[1] = true;
   const auto place = lengths.size() == 2
@@ -123,7 +124,7 @@ std::vector<double> directions(const SetAndActual& machine, ToolPosition from, T
       machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
   if (!before || !after) return {};
   std::vector<double> ways;
-  for (Eigen::Index i = 0; i < after->lengths_mm.size(); ++i)
+  for (Index i = 0; i < after->lengths_mm.size(); ++i)
     ways.push_back(after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0);
   return ways;
 }
@@ -213,7 +214,7 @@ std::size_t first_size(const Effect& effect) {
 }
 
 void add_settings(const Mechanism& mechanism, std::string_view cause,
-                  const std::function<std::optional<SetAndActual>(Eigen::Index, double)>& with_size,
+                  const std::function<std::optional<SetAndActual>(Index, double)>& with_size,
                   Atlas& atlas) {
   const auto parameters = mechanism.parameters();
   for (std::size_t k = 0; k < parameters.size(); ++k) {
@@ -246,8 +247,8 @@ void add_effects(
   }
 }
 
-MechanismPointer with_parameter(const Mechanism& mechanism, Eigen::Index k, double more) {
-  Eigen::VectorXd values = mechanism.values();
+MechanismPointer with_parameter(const Mechanism& mechanism, Index k, double more) {
+  VectorXd values = mechanism.values();
   values[k] += more;
   return mechanism.with_values(values);
 }
@@ -282,7 +283,7 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
   atlas.lines = lattice_over(mechanism.extent());
   add_settings(
       mechanism, cause,
-      [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
+      [&](Index k, double more) -> std::optional<SetAndActual> {
         return SetAndActual{set, with_parameter(mechanism, k, more)};
       },
       atlas);
@@ -307,7 +308,7 @@ Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
   atlas.lines = lattice_over(area);
   add_settings(
       *actual, cause,
-      [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
+      [&](Index k, double more) -> std::optional<SetAndActual> {
         const auto as_is = model::make_belt_mechanism(
             belts::with_anchors(machine, with_parameter(*actual, k, more)->values()));
         return SetAndActual{actual, as_is, origin, origin_of(as_is->machine())};

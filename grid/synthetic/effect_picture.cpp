@@ -28,8 +28,8 @@ ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& appl
   std::vector<Visit> visits;
   for (const BedPoint& corner : corners)
     visits.push_back({corner, static_cast<int>(visits.size())});
-  const std::vector<Eigen::Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
-  std::array<Eigen::Vector2d, 4> cut;
+  const std::vector<Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
+  std::array<Vector2d, 4> cut;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     square.corner_shift_mm[i] = shift[i];
     cut[i] = vector_of(corners[i]) + shift[i];
@@ -53,9 +53,9 @@ EffectPicture picture_effect(const Machine& machine, const model::effects::Effec
   picture.rows = kRows;
   const std::vector<Visit> visits = regular_session(machine, kColumns, kRows);
   const StrengthTable table(machine, visits, noise);
-  const std::vector<Eigen::Vector2d> stated =
+  const std::vector<Vector2d> stated =
       signature(machine, {picture.applied}, visits).tool_shift_mm();
-  const std::vector<Eigen::Vector2d> calibrated = table.calibrated_shift_mm(picture.applied);
+  const std::vector<Vector2d> calibrated = table.calibrated_shift_mm(picture.applied);
   for (std::size_t i = 0; i < visits.size(); ++i) {
     picture.marks.push_back(
         {model::identity_placement(visits[i].position), stated[i], calibrated[i]});

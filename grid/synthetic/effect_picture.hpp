@@ -4,10 +4,10 @@
 /// it is identified: the numbers of `chaintrue effects ID`.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/synthetic/strength.hpp"
 
 namespace chaintrue::grid::synthetic {
@@ -16,16 +16,16 @@ namespace chaintrue::grid::synthetic {
 struct ShiftedMark {
   model::MarkPoint mark;
   /// Actual less commanded position of the tool, on the machine as stated ...
-  Eigen::Vector2d as_stated_mm;
+  Vector2d as_stated_mm;
   /// ... and after calibration of the settings on these marks.
-  Eigen::Vector2d calibrated_mm;
+  Vector2d calibrated_mm;
 };
 
 /// A square cut where the stated machine cuts it; corners counter-clockwise from the lower left.
 struct ShiftedSquare {
   model::BedPoint centre;
   double size_mm = 100.0;
-  std::array<Eigen::Vector2d, 4> corner_shift_mm;
+  std::array<Vector2d, 4> corner_shift_mm;
   /// Bottom, right, top, left, as cut.
   std::array<double, 4> side_mm{};
   /// From the lower left, from the lower right.

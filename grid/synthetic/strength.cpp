@@ -46,8 +46,8 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
   return visits;
 }
 
-std::vector<Eigen::Vector2d> SessionSignature::tool_shift_mm() const {
-  std::vector<Eigen::Vector2d> shift;
+std::vector<Vector2d> SessionSignature::tool_shift_mm() const {
+  std::vector<Vector2d> shift;
   for (std::size_t i = 0; i < residual_mm.size(); ++i) {
     shift.emplace_back(-length_by_xy[i].inverse() * residual_mm[i]);
   }
@@ -72,8 +72,8 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
     const model::MarkPoint place = model::identity_placement(visits[i].position);
     const model::MarkPoint written = mark_frame.written(place);
     const model::MarkPoint usual = stated_mark_frame.written(place);
-    const Eigen::Vector2d moved = difference(written, usual);
-    const Eigen::Vector2d gained = difference(after[i], before[i]);
+    const Vector2d moved = difference(written, usual);
+    const Vector2d gained = difference(after[i], before[i]);
     result.length_by_xy.push_back(reading->position_jacobian);
     result.residual_mm.emplace_back(gained - reading->position_jacobian * moved);
   }
@@ -89,24 +89,23 @@ StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Vi
   }
   const auto count = std::ssize(visits_);
   const auto settings = std::ssize(model::kMachineSettings);
-  Eigen::MatrixXd by_setting = Eigen::MatrixXd::Zero(2 * count + settings, settings);
+  MatrixXd by_setting = MatrixXd::Zero(2 * count + settings, settings);
   const model::ReadingModel model(stated);
-  for (Eigen::Index i = 0; i < count; ++i) {
+  for (Index i = 0; i < count; ++i) {
     const auto reading = model.at(visits_[as_size(i)].position);
     if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
-    const Eigen::Matrix2d& j = reading->position_jacobian;
-    const Eigen::Matrix2d covariance =
-        j * j.transpose() * (noise.position_mm * noise.position_mm) +
-        Eigen::Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
+    const Matrix2d& j = reading->position_jacobian;
+    const Matrix2d covariance = j * j.transpose() * (noise.position_mm * noise.position_mm) +
+                                Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
     length_by_xy_.push_back(j);
-    const Eigen::Matrix2d lower = Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL();
+    const Matrix2d lower = Eigen::LLT<Matrix2d>(covariance).matrixL();
     whitening_.emplace_back(lower.inverse());
-    for (Eigen::Index k = 0; k < settings; ++k) {
+    for (Index k = 0; k < settings; ++k) {
       by_setting.block<2, 1>(2 * i, k) =
           whitening_.back() * model.sensitivity(*reading, model::kMachineSettings[as_size(k)]);
     }
   }
-  for (Eigen::Index k = 0; k < settings; ++k) {
+  for (Index k = 0; k < settings; ++k) {
     by_setting(2 * count + k, k) =
         1.0 /
         std::max(kKnownSigma, model::stated_sigma(stated, model::kMachineSettings[as_size(k)]));
@@ -157,12 +156,12 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
   return result;
 }
 
-std::vector<Eigen::Vector2d> StrengthTable::calibrated_shift_mm(
+std::vector<Vector2d> StrengthTable::calibrated_shift_mm(
     const model::AppliedEffect& applied) const {
-  const Eigen::VectorXd left = entry(applied).left;
-  std::vector<Eigen::Vector2d> shift;
+  const VectorXd left = entry(applied).left;
+  std::vector<Vector2d> shift;
   for (std::size_t i = 0; i < visits_.size(); ++i) {
-    const Eigen::Vector2d pair = left.segment<2>(2 * as_index(i));
+    const Vector2d pair = left.segment<2>(2 * as_index(i));
     shift.emplace_back(-length_by_xy_[i].inverse() * (whitening_[i].inverse() * pair));
   }
   return shift;
@@ -213,9 +212,8 @@ void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
 
 StrengthTable::Entry StrengthTable::entry(const model::AppliedEffect& applied) const {
   Entry result{};
-  const std::vector<Eigen::Vector2d> residual_mm =
-      signature(stated_, {applied}, visits_).residual_mm;
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(settings_basis_.rows());
+  const std::vector<Vector2d> residual_mm = signature(stated_, {applied}, visits_).residual_mm;
+  VectorXd g = VectorXd::Zero(settings_basis_.rows());
   for (std::size_t i = 0; i < visits_.size(); ++i)
     g.segment<2>(2 * as_index(i)) = whitening_[i] * residual_mm[i];
   result.norm = g.norm();

@@ -27,10 +27,10 @@
 /// \endcode
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
@@ -46,10 +46,10 @@ std::vector<model::Visit> regular_session(const model::Machine& machine, int col
 
 /// The changes of a session's readings by effects.
 struct SessionSignature {
-  std::vector<Eigen::Vector2d> residual_mm;   ///< r_i
-  std::vector<Eigen::Matrix2d> length_by_xy;  ///< J_i of the stated machine
+  std::vector<Vector2d> residual_mm;   ///< r_i
+  std::vector<Matrix2d> length_by_xy;  ///< J_i of the stated machine
   /// To first order: actual position of the tool less that of the stated machine, -J^-1 r.
-  std::vector<Eigen::Vector2d> tool_shift_mm() const;
+  std::vector<Vector2d> tool_shift_mm() const;
 };
 
 /// \throws std::invalid_argument if a visit cannot be reached.
@@ -94,7 +94,7 @@ class StrengthTable {
 
   /// The change of the tool's position at each visit by an effect, after calibration of the
   /// settings on these visits.
-  std::vector<Eigen::Vector2d> calibrated_shift_mm(const model::AppliedEffect& applied) const;
+  std::vector<Vector2d> calibrated_shift_mm(const model::AppliedEffect& applied) const;
 
  private:
   /// Sigma of what is stated exactly, in mm: below every other number here.
@@ -103,9 +103,9 @@ class StrengthTable {
   struct Entry {
     const Effect* effect;
     EffectSide side;
-    bool usual = false;    ///< at its nominal places
-    double norm = 0.0;     ///< of g
-    Eigen::VectorXd left;  ///< M g, measurement rows and prior rows
+    bool usual = false;  ///< at its nominal places
+    double norm = 0.0;   ///< of g
+    VectorXd left;       ///< M g, measurement rows and prior rows
   };
   /// Candidate places at which a rival may set in: evenly over the range of the session.
   static std::vector<std::vector<double>> place_choices(const Effect& effect, std::size_t visits);
@@ -118,9 +118,9 @@ class StrengthTable {
 
   model::Machine stated_;
   std::vector<model::Visit> visits_;
-  std::vector<Eigen::Matrix2d> whitening_;  ///< inverse Cholesky factors of C_i
-  std::vector<Eigen::Matrix2d> length_by_xy_;
-  Eigen::MatrixXd settings_basis_;  ///< orthonormal columns that span J_s
+  std::vector<Matrix2d> whitening_;  ///< inverse Cholesky factors of C_i
+  std::vector<Matrix2d> length_by_xy_;
+  MatrixXd settings_basis_;  ///< orthonormal columns that span J_s
   std::vector<Entry> entries_;
 };
 
