@@ -18,13 +18,9 @@
 /// \endcode
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/eigen.hpp"
-#include "grid/precondition.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -44,32 +40,12 @@ MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
 class ToolDisplacement {
  public:
   /// \throws std::invalid_argument if `at_mm` does not fit the places.
-  explicit ToolDisplacement(DisplacementParts parts) : parts_(std::move(parts)) {
-    const auto count = std::ssize(parts_.places);
-    if (parts_.at_mm.size() != 2 * count || count == 0 || !(parts_.reach_mm > 0.0)) {
-      throw precondition("{} displacements of {} places over {} mm", parts_.at_mm.size(), count,
-                         parts_.reach_mm);
-    }
-    // Keeps K positive definite for two holes at one place; a ten-thousandth of the size is below any
-    // tape.
-    constexpr double kSamePlace = 1e-8;
-    MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
-    kernel.diagonal().array() += kSamePlace;
-    inverse_ = linear::Cholesky(std::move(kernel)).inverse();
-    Eigen::MatrixX2d at(count, 2);
-    for (Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
-    weights_mm_ = inverse_ * at;
-  }
+  explicit ToolDisplacement(DisplacementParts parts);
 
-  Vector2d at(model::MarkPoint mark) const {
-    return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
-  }
+  Vector2d at(model::MarkPoint mark) const;
 
   /// For each axis, in addition to the uncertainty at the places.
-  double own_variance_mm2(model::MarkPoint mark) const {
-    const RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
-    return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
-  }
+  double own_variance_mm2(model::MarkPoint mark) const;
 
   const DisplacementParts& parts() const { return parts_; }
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/chain_lengths.hpp"
 
+#include <fmt/format.h>
 #include <cmath>
+#include <tuple>
+
+#include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -10,6 +15,95 @@ const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};
 Matrix2d covariance_of(const PointNoise& noise, const Matrix2d& by_mark) {
   return std::pow(noise.length_mm, 2) * Matrix2d::Identity() +
          std::pow(noise.position_mm, 2) * by_mark * by_mark.transpose();
+}
+
+ChainLengthReadings::ChainLengthReadings(std::vector<Place> places, bool ordered, PointNoise noise,
+                                         double noise_dof, std::optional<SheetPrior> sheet)
+    : Observation(ordered, noise_dof), noise_(noise) {
+  sheet_ = sheet;
+  sort(places, [](const Place& a, const Place& b) {
+    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
+           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
+  });
+  take(std::move(places));
+}
+
+ChainLengthReadings ChainLengthReadings::in_given_order(std::vector<Place> places, bool ordered,
+                                                        PointNoise noise, double noise_dof,
+                                                        std::optional<SheetPrior> sheet) {
+  ChainLengthReadings readings({}, ordered, noise, noise_dof, sheet);
+  readings.take(std::move(places));
+  return readings;
+}
+
+tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {
+  const model::MarkFrame frame(view.chains().machine());
+  std::vector<model::Visit> visits;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    visits.push_back({view.sheet.to_bed(frame.place(places_[i].mark)),
+                      ordered_ ? places_[i].order : static_cast<int>(i)});
+  }
+  const auto lengths = model::readings(view.chains(), visits);
+  if (!lengths)
+    return tl::unexpected(
+        model::mechanism_failure(lengths.error().reason).at(lengths.error().place));
+  VectorXd all(rows());
+  for (std::size_t i = 0; i < lengths->size(); ++i) {
+    model::ChainLengths own = (*lengths)[i];
+    if (view.correction != nullptr) {
+      own = view.correction->at(places_[i].mark, own, Matrix2d::Zero()).lengths;
+    }
+    const auto row = 2 * as_index(i);
+    all.segment<2>(row) = vector_of(own);
+  }
+  return all;
+}
+
+tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
+    const View& view, const Columns& columns) const {
+  const std::vector<model::Setting> settings = settings_in(columns);
+  const model::MarkFrame frame(view.chains().machine());
+  Linearisation line = blank(std::ssize(settings));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const model::MarkPoint place = frame.place(places_[i].mark);
+    const auto reading = view.chains().at(view.sheet.to_bed(place));
+    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
+    ChainPlaceState state{*reading, places_[i].mark,
+                          reading->position_jacobian * view.sheet.rotation()};
+    model::ChainLengths lengths = reading->lengths;
+    if (view.correction != nullptr) {
+      const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
+      lengths = corrected.lengths;
+      state.by_mark = corrected.by_mark;
+      state.by_length = corrected.by_length;
+    }
+    const auto row = 2 * as_index(i);
+    line.predicted.segment<2>(row) = vector_of(lengths);
+    line.by_setting.middleRows<2>(row) =
+        state.by_length.asDiagonal() * lengths_by_setting(view, *reading, place, settings);
+    UnitState unit;
+    unit.covariance = covariance_of(noise_, state.by_mark);
+    unit.places.push_back({i, Matrix2d::Identity()});
+    line.places.push_back(std::move(state));
+    line.units.push_back(std::move(unit));
+  }
+  return line;
+}
+
+std::string ChainLengthReadings::name_of(std::size_t unit) const {
+  const Place& place = places_.at(unit);
+  return fmt::format("point {} at ({:.1f}, {:.1f}) mm", place.name, place.mark.x_mm,
+                     place.mark.y_mm);
+}
+
+void ChainLengthReadings::take(std::vector<Place> places) {
+  places_ = std::move(places);
+  measured_.resize(2 * std::ssize(places_));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto row = 2 * as_index(i);
+    measured_.segment<2>(row) = vector_of(places_[i].lengths);
+    units_.push_back({row, 2, places_[i].index});
+  }
 }
 
 }  // namespace chaintrue::grid::observation

@@ -192,4 +192,103 @@ tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& 
   return result;
 }
 
+tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& view,
+                                                                  const Columns& columns) const {
+  const std::vector<model::Setting> settings = settings_in(columns);
+  auto states = placed(view);
+  if (!states) return tl::unexpected(states.error());
+  std::vector<model::MarkPoint> marks;
+  for (const ChainPlaceState& state : *states) marks.push_back(state.mark);
+  const double factor = tape_factor(view.chains().machine());
+  const DistanceGeometry geometry = distance_geometry(set_, marks);
+  const MatrixXd by_mark = factor * geometry.by_mark;
+  Linearisation line = blank(std::ssize(settings));
+  line.predicted = factor * geometry.predicted_mm;
+  for (std::size_t i = 0; i < states->size(); ++i) {
+    const ChainPlaceState& place = (*states)[i];
+    // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
+    const Matrix2Xd lengths = place.by_length.asDiagonal() *
+                              lengths_by_setting(view, place.reading, place.mark, settings);
+    const Matrix2Xd marks_by_setting = -place.by_mark.inverse() * lengths;
+    line.by_setting += by_mark.middleCols<2>(2 * as_index(i)) * marks_by_setting;
+  }
+  line.by_nuisance << factor * geometry.by_size, VectorXd::Ones(rows()), by_mark;
+  for (Index k = 0; k < rows(); ++k) {
+    const double sigma = sigma_of(set_, set_.distances[as_size(k)]);
+    UnitState unit{MatrixXd::Constant(1, 1, sigma * sigma), {}};
+    for (std::size_t i = 0; i < states->size(); ++i) {
+      const RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
+      if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
+    }
+    line.units.push_back(std::move(unit));
+  }
+  line.places = std::move(*states);
+  return line;
+}
+
+std::string TapeDistances::untestable(const model::effects::Effect& effect,
+                                      model::effects::EffectSide side) const {
+  if (effect.needs == model::effects::DataNeed::order) {
+    return "the order in which the holes were cut is not in the file, and no chain was read";
+  }
+  if (effect.station == model::effects::Station::paper && !is_of_tape(effect, side)) {
+    return "a tape has one scale in every direction, and no axes: print or place marks and read "
+           "the chains there";
+  }
+  return "";
+}
+
+std::string TapeDistances::name_of(std::size_t unit) const {
+  return "the distance " + words_of(set_, set_.distances.at(unit));
+}
+
+tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
+    const View& view) const {
+  // A correction changes by a thousandth of a hole's shift and the chains' scale is below 0.2 %:
+  // each iteration gains at least two digits, starting within some mm.
+  constexpr int kTurns = 6;
+  constexpr double kConvergedMm = 1e-9;
+  std::vector<ChainPlaceState> states;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const model::ChainLengths paid_out = places_[i].lengths;
+    model::BedPoint start = model::identity_placement(places_[i].mark);
+    model::ChainLengths own = paid_out;
+    // The machine's lengths that equal the paid-out ones after correction at a mark.
+    const auto correct = [&](model::MarkPoint mark) {
+      const auto there = view.correction->at(mark, own, Matrix2d::Zero()).lengths;
+      own = {paid_out.left_mm - (there.left_mm - own.left_mm),
+             paid_out.right_mm - (there.right_mm - own.right_mm)};
+    };
+    if (view.correction != nullptr) correct(places_[i].mark);
+    auto reading = view.chains().find(own, start);
+    for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
+      start = reading->pose.position;
+      const model::ChainLengths before = own;
+      correct(view.sheet.to_mark(start));
+      if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
+          kConvergedMm)
+        break;
+      reading = view.chains().find(own, start);
+    }
+    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
+    ChainPlaceState state{*reading, view.sheet.to_mark(reading->pose.position),
+                          reading->position_jacobian * view.sheet.rotation()};
+    if (view.correction != nullptr) {
+      const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);
+      state.by_mark = corrected.by_mark;
+      state.by_length = corrected.by_length;
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+void TapeDistances::state_nuisances() {
+  const Index of_holes = 2 * std::ssize(set_.holes);
+  nuisance_sigma_.resize(3 + of_holes);
+  nuisance_sigma_ << set_.sheet.size_sigma_mm, set_.sheet.size_sigma_mm,
+      tape_zero_sigma_mm(set_.tape), VectorXd::Constant(of_holes, set_.hole_sigma_mm);
+  nuisance_sigma_ = nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
+}
+
 }  // namespace chaintrue::grid::observation
