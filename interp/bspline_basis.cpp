@@ -30,17 +30,17 @@ Four splines(double t, int order) {
 }
 
 struct AxisSupport {
-  Eigen::Index first;
+  Index first;
   Four value;
   Four slope;
 };
 
-AxisSupport axis_support(double position, double low, double step, Eigen::Index columns) {
+AxisSupport axis_support(double position, double low, double step, Index columns) {
   const auto cells = static_cast<double>(columns - 3);
   const double u = (position - low) / step;
   const double inside = std::clamp(u, 0.0, cells);
   const double cell = std::min(std::floor(inside), cells - 1.0);
-  AxisSupport result{static_cast<Eigen::Index>(cell), splines(inside - cell, 0),
+  AxisSupport result{static_cast<Index>(cell), splines(inside - cell, 0),
                      splines(inside - cell, 1)};
   const double beyond = u - inside;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -52,31 +52,30 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
 
 // Integral over the axis of the product of two functions' derivatives of one order, for all pairs.
 // Products of cubics have degree six at most: four Gauss points are exact.
-Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, int order) {
+MatrixXd axis_gram(Index columns, double step, int order) {
   constexpr std::array<double, 4> kNode = {0.069431844202973712, 0.330009478207571868,
                                            0.669990521792428132, 0.930568155797026288};
   constexpr std::array<double, 4> kWeight = {0.173927422568726929, 0.326072577431273071,
                                              0.326072577431273071, 0.173927422568726929};
-  Eigen::Matrix4d cell = Eigen::Matrix4d::Zero();
+  Matrix4d cell = Matrix4d::Zero();
   for (std::size_t g = 0; g < 4; ++g) {
     const Four b = splines(kNode[g], order);
-    const Eigen::Map<const Eigen::Vector4d> v(b.data());
+    const Eigen::Map<const Vector4d> v(b.data());
     cell += kWeight[g] * v * v.transpose();
   }
   cell *= std::pow(step, 1 - 2 * order);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
-  for (Eigen::Index i = 0; i + 3 < columns; ++i) {
+  MatrixXd gram = MatrixXd::Zero(columns, columns);
+  for (Index i = 0; i + 3 < columns; ++i) {
     gram.block<4, 4>(i, i) += cell;
   }
   return gram;
 }
 
-void add_kronecker(Eigen::MatrixXd& sum, double factor, const Eigen::MatrixXd& y_part,
-                   const Eigen::MatrixXd& x_part) {
-  const Eigen::Index m = x_part.rows();
-  for (Eigen::Index i = 0; i < y_part.rows(); ++i) {
-    const Eigen::Index band_end = std::min(y_part.cols(), i + 4);
-    for (Eigen::Index j = std::max<Eigen::Index>(0, i - 3); j < band_end; ++j) {
+void add_kronecker(MatrixXd& sum, double factor, const MatrixXd& y_part, const MatrixXd& x_part) {
+  const Index m = x_part.rows();
+  for (Index i = 0; i < y_part.rows(); ++i) {
+    const Index band_end = std::min(y_part.cols(), i + 4);
+    for (Index j = std::max<Index>(0, i - 3); j < band_end; ++j) {
       sum.block(i * m, j * m, m, m) += (factor * y_part(i, j)) * x_part;
     }
   }
@@ -106,8 +105,8 @@ BasisSupport BsplineBasis::at(double x, double y) const {
   for (std::size_t j = 0; j < 4; ++j) {
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t k = 4 * j + i;
-      result.index[k] = (sy.first + static_cast<Eigen::Index>(j)) * columns_x_ + sx.first +
-                        static_cast<Eigen::Index>(i);
+      result.index[k] =
+          (sy.first + static_cast<Index>(j)) * columns_x_ + sx.first + static_cast<Index>(i);
       result.value[k] = sx.value[i] * sy.value[j];
       result.dx[k] = sx.slope[i] * sy.value[j];
       result.dy[k] = sx.value[i] * sy.slope[j];
@@ -116,15 +115,15 @@ BasisSupport BsplineBasis::at(double x, double y) const {
   return result;
 }
 
-Eigen::VectorXd BsplineBasis::row(double x, double y) const {
+VectorXd BsplineBasis::row(double x, double y) const {
   const BasisSupport support = at(x, y);
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(size());
+  VectorXd row = VectorXd::Zero(size());
   for (std::size_t k = 0; k < 16; ++k) row(support.index[k]) = support.value[k];
   return row;
 }
 
-ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
-                                     double x, double y) const {
+ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const VectorXd>& coefficients, double x,
+                                     double y) const {
   if (coefficients.size() != size()) {
     throw std::invalid_argument(
         fmt::format("{} coefficients for a basis of {} functions", coefficients.size(), size()));
@@ -140,12 +139,12 @@ ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& co
   return result;
 }
 
-Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
+MatrixXd BsplineBasis::bending_penalty(int order) const {
   if (order != 2 && order != 3) {
     throw std::invalid_argument(
         fmt::format("a bending penalty of order {}; known are 2 and 3", order));
   }
-  Eigen::MatrixXd penalty = Eigen::MatrixXd::Zero(size(), size());
+  MatrixXd penalty = MatrixXd::Zero(size(), size());
   double binomial = 1.0;
   for (int in_y = 0; in_y <= order; ++in_y) {
     add_kronecker(penalty, binomial, axis_gram(columns_y_, step_y_, in_y),
@@ -155,7 +154,7 @@ Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
   return penalty;
 }
 
-Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
+MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
   if (degree != 1 && degree != 2) {
     throw std::invalid_argument(fmt::format("polynomials of degree {}; known are 1 and 2", degree));
   }
@@ -164,12 +163,12 @@ Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
   // squared step.
   const double step_u = 2.0 * step_x_ / rectangle_.width();
   const double step_v = 2.0 * step_y_ / rectangle_.height();
-  Eigen::MatrixXd polynomials(size(), degree == 1 ? 3 : 6);
-  for (Eigen::Index iy = 0; iy < columns_y_; ++iy) {
-    for (Eigen::Index ix = 0; ix < columns_x_; ++ix) {
+  MatrixXd polynomials(size(), degree == 1 ? 3 : 6);
+  for (Index iy = 0; iy < columns_y_; ++iy) {
+    for (Index ix = 0; ix < columns_x_; ++ix) {
       const double u = static_cast<double>(ix - 1) * step_u - 1.0;
       const double v = static_cast<double>(iy - 1) * step_v - 1.0;
-      const Eigen::Index row = iy * columns_x_ + ix;
+      const Index row = iy * columns_x_ + ix;
       polynomials.row(row).head<3>() << 1.0, u, v;
       if (degree == 2) {
         polynomials.row(row).tail<3>() << u * u - step_u * step_u / 3.0, u * v,

@@ -15,15 +15,14 @@
 
 #include <array>
 
-#include <Eigen/Core>
-
+#include "interp/eigen.hpp"
 #include "interp/surface.hpp"
 
 namespace chaintrue::interp {
 
 /// The sixteen functions that do not vanish at a point.
 struct BasisSupport {
-  std::array<Eigen::Index, 16> index;
+  std::array<Index, 16> index;
   std::array<double, 16> value;
   std::array<double, 16> dx;
   std::array<double, 16> dy;
@@ -38,35 +37,34 @@ class BsplineBasis {
   /// Throws std::invalid_argument unless the rectangle has a finite positive area and nx, ny >= 1.
   BsplineBasis(const Rectangle& rectangle, int nx, int ny);
 
-  Eigen::Index size() const { return columns_x_ * columns_y_; }
-  Eigen::Index columns_x() const { return columns_x_; }
-  Eigen::Index columns_y() const { return columns_y_; }
+  Index size() const { return columns_x_ * columns_y_; }
+  Index columns_x() const { return columns_x_; }
+  Index columns_y() const { return columns_y_; }
   const Rectangle& rectangle() const { return rectangle_; }
 
   BasisSupport at(double x, double y) const;
 
   /// The functions' values as a dense row of size(): f(x, y) = row . c.
-  Eigen::VectorXd row(double x, double y) const;
+  VectorXd row(double x, double y) const;
 
   /// Value and gradient of the surface with these coefficients.
-  ValueGradient evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients, double x,
-                         double y) const;
+  ValueGradient evaluate(const Eigen::Ref<const VectorXd>& coefficients, double x, double y) const;
 
   /// P with c' P c = integral over the rectangle of the squared derivatives of that order (exact):
   /// 2 is the thin plate's f_xx^2 + 2 f_xy^2 + f_yy^2, 3 is f_xxx^2 + 3 f_xxy^2 + 3 f_xyy^2 +
   /// f_yyy^2. Symmetric, positive semidefinite; its null space is the polynomials of lower degree.
   /// Unit: length^(2 - 2 order). Throws std::invalid_argument for other orders.
-  Eigen::MatrixXd bending_penalty(int order) const;
+  MatrixXd bending_penalty(int order) const;
 
   /// The coefficients of the polynomials up to a degree of 1 or 2, the null space of the penalties:
   /// columns 1, u, v and, for degree 2, u^2, u v, v^2, with u = (x - x_centre) / half width and v
   /// likewise. Throws std::invalid_argument for other degrees.
-  Eigen::MatrixXd polynomial_coefficients(int degree) const;
+  MatrixXd polynomial_coefficients(int degree) const;
 
  private:
   Rectangle rectangle_;
-  Eigen::Index columns_x_;
-  Eigen::Index columns_y_;
+  Index columns_x_;
+  Index columns_y_;
   double step_x_;
   double step_y_;
 };

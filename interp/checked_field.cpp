@@ -23,7 +23,7 @@ std::uint64_t key(std::int64_t column, std::int64_t row) {
 }
 
 /// One component at the sixteen nodes around a cell, (x, y).
-using Nodes = Eigen::Matrix4d;
+using Nodes = Matrix4d;
 
 /// The largest length of what `of` makes of the components, at any place.
 template <class Of>
@@ -130,7 +130,7 @@ std::optional<std::array<Nodes, 2>> CheckedField::nodes_around(Level& level, std
 }
 
 void CheckedField::fill(Level& level, Cell& cell, std::int64_t column, std::int64_t row) {
-  static const Eigen::Matrix4d kToPowers = powers_through({-1.0, 0.0, 1.0, 2.0});
+  static const Matrix4d kToPowers = powers_through({-1.0, 0.0, 1.0, 2.0});
   cell.state = State::given_up;
   const auto nodes = nodes_around(level, column, row);
   if (!nodes) return;

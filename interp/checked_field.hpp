@@ -21,6 +21,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "interp/eigen.hpp"
 #include "interp/pair_polynomial.hpp"
 
 namespace chaintrue::interp {
@@ -75,8 +76,8 @@ class CheckedField {
   bool may_fill() const;
   void fill(Level& level, Cell& cell, std::int64_t column, std::int64_t row);
   /// Each component at the sixteen nodes around a cell, (x, y).
-  std::optional<std::array<Eigen::Matrix4d, 2>> nodes_around(Level& level, std::int64_t column,
-                                                             std::int64_t row);
+  std::optional<std::array<Matrix4d, 2>> nodes_around(Level& level, std::int64_t column,
+                                                      std::int64_t row);
   std::optional<Value> evaluate(double x, double y);
 
   Function function_;

@@ -37,9 +37,6 @@ const kernels::Table& kernels::chosen() {
 
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 kernels::Input input(const Operand& a) {
   const auto& stored = a.stored();
   return {stored.data(), stored.rows(), stored.cols(), stored.outerStride(), a.is_transposed()};
@@ -76,7 +73,7 @@ void add_outer(MatrixXd& c, double scale, const Operand& a) {
   }
   if (c.size() == 0 || a.columns() == 0) return;
   kernels::chosen().add_square(output(c), scale, input(a));
-  for (Eigen::Index k = 1; k < c.cols(); ++k) c.col(k).head(k) = c.row(k).head(k).transpose();
+  for (Index k = 1; k < c.cols(); ++k) c.col(k).head(k) = c.row(k).head(k).transpose();
 }
 
 MatrixXd outer(const Operand& a, double diagonal) {
@@ -100,7 +97,7 @@ Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
         fmt::format("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols()));
   if (lower_.size() == 0) return;
   is_positive_definite_ = kernels::chosen().factorise(output(lower_));
-  for (Eigen::Index k = 0; k < lower_.cols(); ++k) {
+  for (Index k = 0; k < lower_.cols(); ++k) {
     is_positive_definite_ =
         is_positive_definite_ && std::isfinite(lower_(k, k)) && lower_(k, k) > 0.0;
     lower_.col(k).head(k).setZero();
@@ -129,8 +126,8 @@ MatrixXd PivotedCholesky::inverse() const {
 
 MatrixXd PivotedCholesky::root(double least) const {
   const VectorXd pivots = factor_->vectorD();
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < pivots.size(); ++k) {
+  std::vector<Index> columns;
+  for (Index k = 0; k < pivots.size(); ++k) {
     if (pivots[k] > least) columns.push_back(k);
   }
   const MatrixXd lower = factor_->matrixL();
@@ -154,7 +151,7 @@ MatrixXd covariance_root(const MatrixXd& covariance) {
 
 Tridiagonal::Tridiagonal(MatrixXd matrix)
     : reflections_(std::move(matrix)), diagonal_(reflections_.rows()) {
-  const Eigen::Index n = reflections_.rows();
+  const Index n = reflections_.rows();
   if (n == 0) return;
   coefficients_.resize(n - 1);
   subdiagonal_.resize(n - 1);

@@ -16,7 +16,7 @@
 
 #include <memory>
 
-#include <Eigen/Core>
+#include "interp/eigen.hpp"
 
 namespace chaintrue::linear {
 
@@ -26,10 +26,10 @@ class Operand {
   template <class Derived>
   Operand(const Eigen::DenseBase<Derived>& m) : stored_(m.derived()) {}
 
-  const Eigen::Ref<const Eigen::MatrixXd>& stored() const { return stored_; }
+  const Eigen::Ref<const MatrixXd>& stored() const { return stored_; }
   bool is_transposed() const { return is_transposed_; }
-  Eigen::Index rows() const { return is_transposed_ ? stored_.cols() : stored_.rows(); }
-  Eigen::Index columns() const { return is_transposed_ ? stored_.rows() : stored_.cols(); }
+  Index rows() const { return is_transposed_ ? stored_.cols() : stored_.rows(); }
+  Index columns() const { return is_transposed_ ? stored_.rows() : stored_.cols(); }
   friend Operand transposed(const Operand& a) {
     Operand result = a;
     result.is_transposed_ = !a.is_transposed_;
@@ -37,7 +37,7 @@ class Operand {
   }
 
  private:
-  Eigen::Ref<const Eigen::MatrixXd> stored_;
+  Eigen::Ref<const MatrixXd> stored_;
   bool is_transposed_ = false;
 };
 Operand transposed(const Operand& a);
@@ -49,7 +49,7 @@ template <class B>
 using Like = Eigen::Matrix<double, Eigen::Dynamic, VectorLike<B> ? 1 : Eigen::Dynamic>;
 
 /// c += scale a b, at most one of them transposed
-void add_product(Eigen::Ref<Eigen::MatrixXd> c, double scale, const Operand& a, const Operand& b);
+void add_product(Eigen::Ref<MatrixXd> c, double scale, const Operand& a, const Operand& b);
 /// a b
 template <class B>
 Like<B> product(const Operand& a, const B& b) {
@@ -59,33 +59,32 @@ Like<B> product(const Operand& a, const B& b) {
   return c;
 }
 /// c += scale A A' for a symmetric c
-void add_outer(Eigen::MatrixXd& c, double scale, const Operand& a);
+void add_outer(MatrixXd& c, double scale, const Operand& a);
 /// c += scale A'A for a symmetric c
-inline void add_gram(Eigen::MatrixXd& c, double scale, const Operand& a) {
+inline void add_gram(MatrixXd& c, double scale, const Operand& a) {
   add_outer(c, scale, transposed(a));
 }
 /// diagonal + A A'
-Eigen::MatrixXd outer(const Operand& a, double diagonal = 0.0);
+MatrixXd outer(const Operand& a, double diagonal = 0.0);
 /// 1 + A A'
-inline Eigen::MatrixXd one_plus_outer(const Operand& a) { return outer(a, 1.0); }
+inline MatrixXd one_plus_outer(const Operand& a) { return outer(a, 1.0); }
 /// A'A
-inline Eigen::MatrixXd gram(const Operand& a) { return outer(transposed(a)); }
+inline MatrixXd gram(const Operand& a) { return outer(transposed(a)); }
 /// 1 + A'A
-inline Eigen::MatrixXd one_plus_gram(const Operand& a) { return outer(transposed(a), 1.0); }
+inline MatrixXd one_plus_gram(const Operand& a) { return outer(transposed(a), 1.0); }
 /// A C A'
-Eigen::MatrixXd carried(const Operand& a, const Operand& c);
+MatrixXd carried(const Operand& a, const Operand& c);
 /// A diag(s)
-Eigen::MatrixXd scaled_columns(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                               const Eigen::Ref<const Eigen::VectorXd>& s);
+MatrixXd scaled_columns(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const VectorXd>& s);
 
 /// M = L L' of a symmetric positive definite matrix; only the lower triangle is read.
 class Cholesky {
  public:
   Cholesky() = default;
-  explicit Cholesky(Eigen::MatrixXd matrix);
+  explicit Cholesky(MatrixXd matrix);
   /// False if a pivot was not positive or not a number; then no other member may be called.
   bool is_positive_definite() const { return is_positive_definite_; }
-  Eigen::Index size() const { return lower_.rows(); }
+  Index size() const { return lower_.rows(); }
 
   /// M^-1 b
   template <class B>
@@ -101,21 +100,21 @@ class Cholesky {
     half_solve_in_place(x);
     return x;
   }
-  void half_solve_in_place(Eigen::Ref<Eigen::MatrixXd> b) const;
+  void half_solve_in_place(Eigen::Ref<MatrixXd> b) const;
   /// M^-1
-  Eigen::MatrixXd inverse() const;
+  MatrixXd inverse() const;
   /// L^-T: a square root of M^-1.
-  Eigen::MatrixXd root_of_inverse() const;
+  MatrixXd root_of_inverse() const;
   /// L
-  const Eigen::MatrixXd& lower() const { return lower_; }
+  const MatrixXd& lower() const { return lower_; }
   /// log |M|
   double log_det() const;
 
  private:
   /// L^-T b
-  void other_half_solve_in_place(Eigen::Ref<Eigen::MatrixXd> b) const;
+  void other_half_solve_in_place(Eigen::Ref<MatrixXd> b) const;
 
-  Eigen::MatrixXd lower_;
+  MatrixXd lower_;
   bool is_positive_definite_ = true;
 };
 
@@ -123,85 +122,85 @@ class Cholesky {
 /// may leave undetermined.
 class PivotedCholesky {
  public:
-  explicit PivotedCholesky(const Eigen::MatrixXd& matrix);
+  explicit PivotedCholesky(const MatrixXd& matrix);
   /// M^-1 b; 0 along the null directions of M.
   template <class B>
   Like<B> solve(const B& b) const {
     return solved(b);
   }
-  Eigen::MatrixXd inverse() const;
+  MatrixXd inverse() const;
   /// F with F F' = M, without the columns whose D is at most `least`.
-  Eigen::MatrixXd root(double least) const;
+  MatrixXd root(double least) const;
 
  private:
-  Eigen::MatrixXd solved(const Eigen::MatrixXd& b) const;
+  MatrixXd solved(const MatrixXd& b) const;
 
-  std::shared_ptr<const Eigen::LDLT<Eigen::MatrixXd>> factor_;
+  std::shared_ptr<const Eigen::LDLT<MatrixXd>> factor_;
 };
 
 /// M = V diag(values) V' of a symmetric matrix, from its lower triangle; values ascending, the columns
 /// of V orthonormal.
 class SymmetricEigen {
  public:
-  explicit SymmetricEigen(const Eigen::MatrixXd& matrix);
-  const Eigen::VectorXd& eigenvalues() const { return values_; }
-  const Eigen::MatrixXd& eigenvectors() const { return vectors_; }
+  explicit SymmetricEigen(const MatrixXd& matrix);
+  const VectorXd& eigenvalues() const { return values_; }
+  const MatrixXd& eigenvectors() const { return vectors_; }
 
  private:
-  Eigen::VectorXd values_;
-  Eigen::MatrixXd vectors_;
+  VectorXd values_;
+  MatrixXd vectors_;
 };
 /// F with F F' = C of a covariance, which may be semidefinite up to rounding; a column for each
 /// direction, the widest last.
-Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& covariance);
+MatrixXd covariance_root(const MatrixXd& covariance);
 
 /// M = Q J Q' of a symmetric matrix, J with one entry beside each on the diagonal.
 class Tridiagonal {
  public:
   Tridiagonal() = default;
-  explicit Tridiagonal(Eigen::MatrixXd matrix);
-  const Eigen::VectorXd& diagonal() const { return diagonal_; }
-  const Eigen::VectorXd& subdiagonal() const { return subdiagonal_; }
+  explicit Tridiagonal(MatrixXd matrix);
+  const VectorXd& diagonal() const { return diagonal_; }
+  const VectorXd& subdiagonal() const { return subdiagonal_; }
   /// x = Q' x
-  void rotate_in_place(Eigen::MatrixXd& x) const;
+  void rotate_in_place(MatrixXd& x) const;
 
  private:
-  Eigen::MatrixXd reflections_;
-  Eigen::VectorXd coefficients_, diagonal_, subdiagonal_;
+  MatrixXd reflections_;
+  VectorXd coefficients_, diagonal_, subdiagonal_;
 };
 
 /// A = Q R of a matrix with at least as many rows as columns.
 struct Qr {
-  Eigen::MatrixXd q;  ///< rows x rows
-  Eigen::MatrixXd r;  ///< columns x columns, an upper triangle
+  MatrixXd q;  ///< rows x rows
+  MatrixXd r;  ///< columns x columns, an upper triangle
 };
-Qr qr(const Eigen::MatrixXd& a);
+Qr qr(const MatrixXd& a);
 /// Q's first columns: orthonormal, they span what those of A span.
-Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& a);
+MatrixXd orthonormal_columns(const MatrixXd& a);
 /// R alone: R'R = A'A.
-Eigen::MatrixXd upper_triangle(const Eigen::MatrixXd& a);
+MatrixXd upper_triangle(const MatrixXd& a);
 
 /// Orthonormal columns: those of `range` span the columns of A up to rounding, `rest` their
 /// orthogonal complement.
 struct Range {
-  Eigen::MatrixXd range;
-  Eigen::MatrixXd rest;
+  MatrixXd range;
+  MatrixXd rest;
 };
 /// \param least share of the largest pivot below which a pivot counts as zero; 0: as many roundings
 /// as A has columns.
-Range range_of(const Eigen::MatrixXd& a, double least = 0.0);
+Range range_of(const MatrixXd& a, double least = 0.0);
 
 /// The x of least length for which A x - b is shortest.
-Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b);
 
 /// A = U diag(values) W' with as few columns in U as A has rows or columns.
 struct ThinSvd {
-  Eigen::MatrixXd u;
-  Eigen::VectorXd values;  ///< descending
+  MatrixXd u;
+  VectorXd values;  ///< descending
 };
-ThinSvd thin_svd(const Eigen::MatrixXd& a);
+ThinSvd thin_svd(const MatrixXd& a);
 
 /// A^-1 of any square matrix that has one.
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
+MatrixXd inverse(const MatrixXd& a);
 
 }  // namespace chaintrue::linear

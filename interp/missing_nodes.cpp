@@ -14,18 +14,17 @@ namespace {
 
 /// The spline along one line at a hole as weights on the line's nodes, zero at its holes. Empty with
 /// fewer than three present nodes.
-std::optional<Eigen::VectorXd> along(const std::vector<double>& nodes, const Eigen::VectorXd& line,
-                                     double at) {
+std::optional<VectorXd> along(const std::vector<double>& nodes, const VectorXd& line, double at) {
   std::vector<double> x;
-  std::vector<Eigen::Index> present;
-  for (Eigen::Index i = 0; i < line.size(); ++i) {
+  std::vector<Index> present;
+  for (Index i = 0; i < line.size(); ++i) {
     if (!std::isnan(line(i))) {
       x.push_back(nodes[static_cast<std::size_t>(i)]);
       present.push_back(i);
     }
   }
   if (x.size() < 3) return std::nullopt;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(line.size());
+  VectorXd weights = VectorXd::Zero(line.size());
   weights(present) = SplineAxis(x).cardinal_weights(at);
   return weights;
 }
@@ -34,18 +33,18 @@ std::optional<Eigen::VectorXd> along(const std::vector<double>& nodes, const Eig
 
 std::optional<FilledGrid> fill_missing(const std::vector<double>& x_nodes,
                                        const std::vector<double>& y_nodes,
-                                       const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  if (values.rows() != static_cast<Eigen::Index>(x_nodes.size()) ||
-      values.cols() != static_cast<Eigen::Index>(y_nodes.size())) {
+                                       const Eigen::Ref<const MatrixXd>& values) {
+  if (values.rows() != static_cast<Index>(x_nodes.size()) ||
+      values.cols() != static_cast<Index>(y_nodes.size())) {
     throw std::invalid_argument(fmt::format("{} x {} values for {} x {} nodes", values.rows(),
                                             values.cols(), x_nodes.size(), y_nodes.size()));
   }
   FilledGrid result{values, {}};
   const auto is_hole = values.array().isNaN();
-  const Eigen::MatrixXd holes = is_hole.cast<double>();
-  const Eigen::MatrixXd present = is_hole.select(0.0, values);
-  for (Eigen::Index iy = 0; iy < values.cols(); ++iy) {
-    for (Eigen::Index ix = 0; ix < values.rows(); ++ix) {
+  const MatrixXd holes = is_hole.cast<double>();
+  const MatrixXd present = is_hole.select(0.0, values);
+  for (Index iy = 0; iy < values.cols(); ++iy) {
+    for (Index ix = 0; ix < values.rows(); ++ix) {
       if (holes(ix, iy) == 0.0) continue;
       const auto row = along(x_nodes, values.col(iy), x_nodes[static_cast<std::size_t>(ix)]);
       const auto column =

@@ -18,20 +18,20 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
+#include "interp/eigen.hpp"
 
 namespace chaintrue::interp {
 
 struct FilledNode {
-  Eigen::Index ix;
-  Eigen::Index iy;
+  Index ix;
+  Index iy;
   double value;
   double doubt;    ///< error of the nearer of the two lines; 0 if filled by one line
   double by_line;  ///< value of the line with more nodes present
 };
 
 struct FilledGrid {
-  Eigen::MatrixXd values;
+  MatrixXd values;
   std::vector<FilledNode> filled;
 };
 
@@ -40,6 +40,6 @@ struct FilledGrid {
 /// Deterministic: holes are filled from present nodes only, so their order does not matter.
 std::optional<FilledGrid> fill_missing(const std::vector<double>& x_nodes,
                                        const std::vector<double>& y_nodes,
-                                       const Eigen::Ref<const Eigen::MatrixXd>& values);
+                                       const Eigen::Ref<const MatrixXd>& values);
 
 }  // namespace chaintrue::interp

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include <Eigen/Core>
+#include "interp/eigen.hpp"
 
 namespace chaintrue::interp {
 
@@ -19,17 +19,17 @@ struct PairGradient {
 };
 
 /// The matrix that takes values at four places to the powers of the cubic through them.
-Eigen::Matrix4d powers_through(const Eigen::Vector4d& places);
+Matrix4d powers_through(const Vector4d& places);
 
 /// Immutable once both are set. The coefficients are interleaved: 256 bytes, of u^i v^j in surface k
 /// at 8 i + 2 j + k.
 class alignas(64) PairPolynomial {
  public:
   /// powers(i, j) is the coefficient of u^i v^j.
-  void set(std::size_t surface, const Eigen::Matrix4d& powers) {
+  void set(std::size_t surface, const Matrix4d& powers) {
     for (std::size_t at = 0; at < 16; ++at)
       c_[8 * (at / 4) + 2 * (at % 4) + surface] =
-          powers(static_cast<Eigen::Index>(at / 4), static_cast<Eigen::Index>(at % 4));
+          powers(static_cast<Index>(at / 4), static_cast<Index>(at % 4));
   }
 
   /// At u and v, which rise by `per_x` and `per_y` with each unit of x and y.

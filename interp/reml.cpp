@@ -13,13 +13,13 @@
 
 namespace chaintrue::interp {
 
-PenalisedProblem::PenalisedProblem(Eigen::Index columns)
-    : design(Eigen::MatrixXd::Zero(0, columns)),
-      prior_precision(Eigen::MatrixXd::Zero(columns, columns)),
-      prior_mean(Eigen::VectorXd::Zero(columns)) {}
+PenalisedProblem::PenalisedProblem(Index columns)
+    : design(MatrixXd::Zero(0, columns)),
+      prior_precision(MatrixXd::Zero(columns, columns)),
+      prior_mean(VectorXd::Zero(columns)) {}
 
-void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
-                                const Eigen::Ref<const Eigen::VectorXd>& y) {
+void PenalisedProblem::add_rows(const Eigen::Ref<const MatrixXd>& x,
+                                const Eigen::Ref<const VectorXd>& y) {
   if (x.cols() != columns() || x.rows() != y.size()) {
     throw std::invalid_argument(fmt::format("{} x {} design rows and {} responses for {} columns",
                                             x.rows(), x.cols(), y.size(), columns()));
@@ -31,8 +31,8 @@ void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
   rows += x.rows();
 }
 
-void PenalisedProblem::add_products(Eigen::Index count, const Eigen::MatrixXd& products) {
-  const Eigen::MatrixXd root = linear::PivotedCholesky(products).root(0.0).transpose();
+void PenalisedProblem::add_products(Index count, const MatrixXd& products) {
+  const MatrixXd root = linear::PivotedCholesky(products).root(0.0).transpose();
   add_rows(root.leftCols(columns()), root.rightCols(1));
   rows += count - root.rows();
 }
@@ -103,15 +103,15 @@ tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem
   return rank_deficient();
 }
 
-tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
-    const Eigen::Ref<const Eigen::VectorXd>& residual,
-    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
-  const Eigen::Index m = residual.size();
+tl::expected<VectorXd, FitFailure> held_out_residual(const Eigen::Ref<const VectorXd>& residual,
+                                                     const Eigen::Ref<const MatrixXd>& spread,
+                                                     double sigma2) {
+  const Index m = residual.size();
   if (spread.rows() != m || spread.cols() != m) {
     throw std::invalid_argument(fmt::format("{} held-out residuals with a spread of {} x {}", m,
                                             spread.rows(), spread.cols()));
   }
-  const linear::Cholesky kept(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
+  const linear::Cholesky kept(MatrixXd::Identity(m, m) - spread / sigma2);
   // The rounding of the spread is about 1e-12.
   constexpr double kSmallestPivot = 1e-9;
   if (!kept.is_positive_definite() ||

@@ -40,15 +40,16 @@
 
 #include <string>
 
-#include <Eigen/Core>
 #include <tl/expected.hpp>
+
+#include "interp/eigen.hpp"
 
 namespace chaintrue::interp {
 
 /// The columns first .. first + count - 1; none where count is 0.
 struct Ridge {
-  Eigen::Index first = 0;
-  Eigen::Index count = 0;
+  Index first = 0;
+  Index count = 0;
   /// The lambda that the search is centred on; 0 chooses the one at which the ridge weighs as much
   /// as X'X.
   double balance = 0.0;
@@ -73,21 +74,20 @@ struct NoiseScale {
 ///     problem.ridge = {0, m};
 ///     auto fit = fit_penalised(problem);
 struct PenalisedProblem {
-  explicit PenalisedProblem(Eigen::Index columns);
+  explicit PenalisedProblem(Index columns);
 
-  void add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
-                const Eigen::Ref<const Eigen::VectorXd>& y);
+  void add_rows(const Eigen::Ref<const MatrixXd>& x, const Eigen::Ref<const VectorXd>& y);
   /// `count` rows known by [X y]'[X y]: q + 1 others with these products stand for them. Squaring
   /// loses half the digits where there is hardly any noise.
-  void add_products(Eigen::Index count, const Eigen::MatrixXd& products);
+  void add_products(Index count, const MatrixXd& products);
 
-  Eigen::Index columns() const { return design.cols(); }
+  Index columns() const { return design.cols(); }
 
-  Eigen::Index rows = 0;            ///< n; as many as were added
-  Eigen::MatrixXd design;           ///< X
-  Eigen::VectorXd response;         ///< y
-  Eigen::MatrixXd prior_precision;  ///< S0, q x q, zero in the ridge's rows and columns
-  Eigen::VectorXd prior_mean;       ///< b0, zero in the ridge
+  Index rows = 0;            ///< n; as many as were added
+  MatrixXd design;           ///< X
+  VectorXd response;         ///< y
+  MatrixXd prior_precision;  ///< S0, q x q, zero in the ridge's rows and columns
+  VectorXd prior_mean;       ///< b0, zero in the ridge
   Ridge ridge;
   NoiseScale noise;
 };
@@ -107,11 +107,11 @@ struct FitFailure {
 
 /// The fitted model. Covariances are those of the Bayesian posterior (2).
 struct PenalisedFit {
-  Eigen::VectorXd coefficients;
-  Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
-  Eigen::MatrixXd corrected_covariance;  ///< averaged over smoothing and sigma2
-  double lambda = 1.0;                   ///< meaningless without a ridge
-  double inverse_lambda = 1.0;  ///< averaged as corrected_covariance is: the prior variance
+  VectorXd coefficients;
+  MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
+  MatrixXd corrected_covariance;  ///< averaged over smoothing and sigma2
+  double lambda = 1.0;            ///< meaningless without a ridge
+  double inverse_lambda = 1.0;    ///< averaged as corrected_covariance is: the prior variance
   double sigma2 = 1.0;
   double edf = 0.0;                 ///< trace of the hat matrix
   double minus_two_log_reml = 0.0;  ///< V of (3), plus the prior's terms if there is one
@@ -120,9 +120,9 @@ struct PenalisedFit {
 /// Residuals of m rows left out of the fit, smoothing held fixed: (I - H_gg)^-1 (y_g - X_g b), from
 /// their residuals y_g - X_g b and X_g A^-1 X_g' (m x m). An error where the remaining data do not
 /// determine the fit (I - H_gg not positive definite).
-[[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
-    const Eigen::Ref<const Eigen::VectorXd>& residual,
-    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2);
+[[nodiscard]] tl::expected<VectorXd, FitFailure> held_out_residual(
+    const Eigen::Ref<const VectorXd>& residual, const Eigen::Ref<const MatrixXd>& spread,
+    double sigma2);
 
 /// Prior on lambda and, if unknown, on sigma2.
 enum class SmoothingPrior {

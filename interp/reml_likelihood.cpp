@@ -12,7 +12,7 @@ namespace chaintrue::interp::reml {
 namespace {
 
 void check(const PenalisedProblem& problem) {
-  const Eigen::Index q = problem.columns();
+  const Index q = problem.columns();
   const Ridge& ridge = problem.ridge;
   const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
   if (!problem.design.allFinite() || !problem.response.allFinite()) {
@@ -33,18 +33,18 @@ void check(const PenalisedProblem& problem) {
 }
 
 struct InverseRoot {
-  Eigen::MatrixXd root;  // W with W W' the inverse
+  MatrixXd root;  // W with W W' the inverse
   double log_determinant;
 };
 
 // The matrix is scaled to unit diagonal, because the units of a column must not affect its rank.
 // Empty where it is not positive definite to rounding.
-std::optional<InverseRoot> inverse_root(const Eigen::MatrixXd& matrix) {
+std::optional<InverseRoot> inverse_root(const MatrixXd& matrix) {
   // A pivot of the unit-diagonal matrix below this value means that a combination of columns is
   // undetermined.
   constexpr double kZeroPivot = 1e-12;
   if (!(matrix.diagonal().array() > 0.0).all()) return std::nullopt;
-  const Eigen::VectorXd scale = matrix.diagonal().array().rsqrt();
+  const VectorXd scale = matrix.diagonal().array().rsqrt();
   const linear::Cholesky factor(scale.asDiagonal() * matrix * scale.asDiagonal());
   const bool is_positive =
       factor.is_positive_definite() && (factor.lower().diagonal().array().square() >=
@@ -65,36 +65,36 @@ Likelihood::Likelihood(const PenalisedProblem& problem, SmoothingPrior prior) : 
   if (noise() == NoiseKnowledge::from_repeats) degrees_ = problem.noise.degrees_of_freedom;
   if (prior == SmoothingPrior::avoids_boundary) prior_slope_ = flat_slope();
   const Ridge& ridge = problem.ridge;
-  for (Eigen::Index i = 0; i < problem.columns(); ++i) {
+  for (Index i = 0; i < problem.columns(); ++i) {
     if (i < ridge.first || i >= ridge.first + ridge.count) shared_.push_back(i);
   }
   shared_prior_ = problem.prior_precision(shared_, shared_);
   shared_mean_ = problem.prior_mean(shared_);
   rows_ = problem.design(Eigen::all, shared_);
   response_ = problem.response;
-  eigenvalues_ = Eigen::VectorXd::Zero(response_.size());
-  to_ridge_ = Eigen::MatrixXd::Zero(0, response_.size());
+  eigenvalues_ = VectorXd::Zero(response_.size());
+  to_ridge_ = MatrixXd::Zero(0, response_.size());
   if (has_ridge()) turn_rows();
 }
 
 void Likelihood::turn_rows() {
-  const Eigen::Index m = problem_.ridge.count;
-  const Eigen::Index p = rows_.cols();
-  Eigen::MatrixXd all(response_.size(), m + p + 1);
+  const Index m = problem_.ridge.count;
+  const Index p = rows_.cols();
+  MatrixXd all(response_.size(), m + p + 1);
   all << problem_.design.middleCols(problem_.ridge.first, m), rows_, response_;
   if (all.rows() > all.cols()) all = linear::upper_triangle(all);
-  const Eigen::MatrixXd f = all.leftCols(m);
+  const MatrixXd f = all.leftCols(m);
   const linear::SymmetricEigen solver(linear::outer(f));
-  const Eigen::MatrixXd q = solver.eigenvectors().rowwise().reverse();
+  const MatrixXd q = solver.eigenvectors().rowwise().reverse();
   eigenvalues_ = solver.eigenvalues().reverse().cwiseMax(0.0);
-  const Eigen::Index rank = std::min(m, all.rows());
+  const Index rank = std::min(m, all.rows());
   eigenvalues_.tail(all.rows() - rank).setZero();
   // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R. It is orthonormal
   // to rounding even where g is at rounding level, and it spans the directions that no row reaches.
   to_ridge_ = linear::product(linear::transposed(f), q);
   to_ridge_.rightCols(all.rows() - rank).setZero();
   basis_ = linear::qr(to_ridge_.leftCols(rank)).q;
-  const Eigen::MatrixXd rest = linear::product(linear::transposed(q), all.rightCols(p + 1));
+  const MatrixXd rest = linear::product(linear::transposed(q), all.rightCols(p + 1));
   rows_ = rest.leftCols(p);
   response_ = rest.col(p);
 }
@@ -108,9 +108,8 @@ double Likelihood::balance() const {
 double Likelihood::response_variance() const {
   // Responses below this are rounding errors.
   constexpr double kLeast = 1e-20;
-  return std::max(
-      response_.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
-      kLeast);
+  return std::max(response_.squaredNorm() / static_cast<double>(std::max<Index>(problem_.rows, 1)),
+                  kLeast);
 }
 
 Theta Likelihood::flat_slope() const {
@@ -121,16 +120,16 @@ std::optional<State> Likelihood::at(const Theta& theta) const {
   State state;
   state.theta = theta;
   state.weights = (state.sigma2() + eigenvalues_.array() / state.lambda()).inverse();
-  Eigen::MatrixXd h = shared_prior_;
+  MatrixXd h = shared_prior_;
   linear::add_gram(h, 1.0, state.weights.cwiseSqrt().asDiagonal() * rows_);
   auto inverse = inverse_root(h);
   if (!inverse) return std::nullopt;
   state.root = std::move(inverse->root);
-  const Eigen::VectorXd right =
+  const VectorXd right =
       shared_prior_ * shared_mean_ + rows_.transpose() * (state.weights.asDiagonal() * response_);
   state.shared = state.root * (state.root.transpose() * right);
   state.residual = response_ - rows_ * state.shared;
-  const Eigen::VectorXd off = state.shared - shared_mean_;
+  const VectorXd off = state.shared - shared_mean_;
   const auto more_rows = static_cast<double>(problem_.rows - response_.size());
   state.value = more_rows * theta[1] - state.weights.array().log().sum() +
                 inverse->log_determinant +
@@ -141,10 +140,9 @@ std::optional<State> Likelihood::at(const Theta& theta) const {
 }
 
 Derivatives Likelihood::derivatives(const State& state) const {
-  const Eigen::VectorXd& d = state.weights;
-  const Eigen::MatrixXd halves = linear::product(rows_, state.root);  // K is their square
-  const Eigen::VectorXd fits =
-      d.cwiseProduct(state.residual.cwiseAbs2() + halves.rowwise().squaredNorm());
+  const VectorXd& d = state.weights;
+  const MatrixXd halves = linear::product(rows_, state.root);  // K is their square
+  const VectorXd fits = d.cwiseProduct(state.residual.cwiseAbs2() + halves.rowwise().squaredNorm());
   Eigen::MatrixX2d e(d.size(), 2);
   e << d.cwiseProduct(eigenvalues_ / -state.lambda()), state.sigma2() * d;
   const Theta slope = e.transpose() * (1.0 - fits.array()).matrix();
@@ -153,8 +151,8 @@ Derivatives Likelihood::derivatives(const State& state) const {
   result.hessian.diagonal() += Theta(-slope[0], slope[1]);
   Eigen::MatrixX2d pull(halves.cols(), 2);
   Eigen::MatrixX2d spread(halves.cols() * halves.cols(), 2);
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const Eigen::MatrixXd weighted = d.cwiseProduct(e.col(i)).asDiagonal() * halves;
+  for (Index i = 0; i < 2; ++i) {
+    const MatrixXd weighted = d.cwiseProduct(e.col(i)).asDiagonal() * halves;
     pull.col(i) = weighted.transpose() * state.residual;
     spread.col(i) = linear::product(linear::transposed(halves), weighted).reshaped();
   }
@@ -167,43 +165,43 @@ Derivatives Likelihood::derivatives(const State& state) const {
 }
 
 double Likelihood::edf(const State& state) const {
-  const Eigen::VectorXd leverage = linear::product(rows_, state.root).rowwise().squaredNorm();
+  const VectorXd leverage = linear::product(rows_, state.root).rowwise().squaredNorm();
   return state.weights.dot(eigenvalues_ / state.lambda() +
                            state.sigma2() * state.weights.cwiseProduct(leverage));
 }
 
-Eigen::VectorXd Likelihood::coefficients(const State& state) const {
-  Eigen::VectorXd b(problem_.columns());
+VectorXd Likelihood::coefficients(const State& state) const {
+  VectorXd b(problem_.columns());
   b.segment(problem_.ridge.first, problem_.ridge.count) =
       to_ridge_ * (state.weights.asDiagonal() * state.residual) / state.lambda();
   b(shared_) = state.shared;
   return b;
 }
 
-Eigen::MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const State& centre) const {
+MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const State& centre) const {
   const auto [first, m, balance] = problem_.ridge;
-  const Eigen::Index p = rows_.cols();
-  const auto count = static_cast<Eigen::Index>(nodes.size());
-  const Eigen::VectorXd middle = coefficients(centre);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
-  const Eigen::Index rank = std::min(m, eigenvalues_.size());
+  const Index p = rows_.cols();
+  const auto count = static_cast<Index>(nodes.size());
+  const VectorXd middle = coefficients(centre);
+  VectorXd g = VectorXd::Zero(m);
+  const Index rank = std::min(m, eigenvalues_.size());
   g.head(rank) = eigenvalues_.head(rank);
-  Eigen::VectorXd of_ridge = Eigen::VectorXd::Zero(m);
+  VectorXd of_ridge = VectorXd::Zero(m);
   // (-U', I)' H^-1 (-U', I) = W W' with W = (-U', I)' times a root of H^-1; one wide product is
   // faster than many narrow ones.
-  Eigen::MatrixXd wide(problem_.columns(), count * (p + 1));
-  for (Eigen::Index k = 0; k < count; ++k) {
+  MatrixXd wide(problem_.columns(), count * (p + 1));
+  for (Index k = 0; k < count; ++k) {
     const Node& node = nodes[static_cast<std::size_t>(k)];
     const State state = at(node.theta).value();
     const double root = std::sqrt(node.weight);
     of_ridge.array() += node.weight / (g.array() / state.sigma2() + state.lambda());
-    const Eigen::MatrixXd weighted = (-root / state.lambda() * state.weights).asDiagonal() * rows_;
+    const MatrixXd weighted = (-root / state.lambda() * state.weights).asDiagonal() * rows_;
     wide.block(first, k * p, m, p) =
         linear::product(linear::product(to_ridge_, weighted), state.root);
     wide(shared_, Eigen::seqN(k * p, p)) = root * state.root;
     wide.col(count * p + k) = root * (coefficients(state) - middle);
   }
-  Eigen::MatrixXd result = linear::outer(wide);
+  MatrixXd result = linear::outer(wide);
   result.block(first, first, m, m) +=
       linear::outer(linear::scaled_columns(basis_, of_ridge.cwiseSqrt()));
   return result;

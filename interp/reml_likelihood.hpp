@@ -30,21 +30,22 @@
 #include <optional>
 #include <vector>
 
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::interp::reml {
 
-using Theta = Eigen::Vector2d;
+using Theta = Vector2d;
 
 /// The fit at one theta.
 struct State {
   Theta theta = Theta::Zero();
-  double value = 0.0;        ///< V of (4), with the prior's terms
-  Eigen::VectorXd weights;   ///< D
-  Eigen::VectorXd shared;    ///< s
-  Eigen::VectorXd residual;  ///< r
-  Eigen::MatrixXd root;      ///< W with W W' = H^-1
+  double value = 0.0;  ///< V of (4), with the prior's terms
+  VectorXd weights;    ///< D
+  VectorXd shared;     ///< s
+  VectorXd residual;   ///< r
+  MatrixXd root;       ///< W with W W' = H^-1
   double lambda() const;
   double sigma2() const;
 };
@@ -52,7 +53,7 @@ struct State {
 /// The derivatives of V at a state.
 struct Derivatives {
   Theta gradient;
-  Eigen::Matrix2d hessian;
+  Matrix2d hessian;
 };
 
 class Likelihood {
@@ -75,7 +76,7 @@ class Likelihood {
   std::optional<State> at(const Theta& theta) const;
   Derivatives derivatives(const State& state) const;
   /// b, in the problem's columns.
-  Eigen::VectorXd coefficients(const State& state) const;
+  VectorXd coefficients(const State& state) const;
   /// Trace of the hat matrix.
   double edf(const State& state) const;
 
@@ -86,7 +87,7 @@ class Likelihood {
   };
   /// Sum of weight (A^-1 + (b - b_c)(b - b_c)') over the nodes, in the problem's columns, with b_c
   /// the coefficients of `centre`. A must be positive definite at every node.
-  Eigen::MatrixXd covariance(const std::vector<Node>& nodes, const State& centre) const;
+  MatrixXd covariance(const std::vector<Node>& nodes, const State& centre) const;
 
  private:
   void turn_rows();
@@ -96,14 +97,14 @@ class Likelihood {
   const PenalisedProblem& problem_;
   double degrees_ = 0.0;  // d
   Theta prior_slope_ = Theta::Zero();
-  std::vector<Eigen::Index> shared_;  // the columns outside the ridge
-  Eigen::MatrixXd shared_prior_;      // S0
-  Eigen::VectorXd shared_mean_;       // s0
-  Eigen::VectorXd eigenvalues_;       // g
-  Eigen::MatrixXd rows_;              // Z
-  Eigen::VectorXd response_;          // y
-  Eigen::MatrixXd basis_;             // R
-  Eigen::MatrixXd to_ridge_;          // F'Q
+  std::vector<Index> shared_;  // the columns outside the ridge
+  MatrixXd shared_prior_;      // S0
+  VectorXd shared_mean_;       // s0
+  VectorXd eigenvalues_;       // g
+  MatrixXd rows_;              // Z
+  VectorXd response_;          // y
+  MatrixXd basis_;             // R
+  MatrixXd to_ridge_;          // F'Q
 };
 
 }  // namespace chaintrue::interp::reml

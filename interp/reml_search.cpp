@@ -61,8 +61,8 @@ std::optional<State> scan(const Likelihood& likelihood, const Limits& limits) {
 }
 
 // Fixed unknowns get a curvature of 1 and no coupling.
-Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
-  Eigen::Matrix2d result = hessian.cwiseProduct(free * free.transpose());
+Matrix2d restricted(const Matrix2d& hessian, const Theta& free) {
+  Matrix2d result = hessian.cwiseProduct(free * free.transpose());
   result.diagonal() += Theta::Ones() - free;
   return result;
 }
@@ -71,7 +71,7 @@ Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
 struct Place {
   Place(const Likelihood& likelihood, const Limits& limits, State at)
       : state(std::move(at)), derivatives(likelihood.derivatives(state)) {
-    for (Eigen::Index i = 0; i < 2; ++i) {
+    for (Index i = 0; i < 2; ++i) {
       double& slope = derivatives.gradient[i];
       if (limits.low[i] == limits.high[i] || (state.theta[i] <= limits.low[i] && slope > 0.0) ||
           (state.theta[i] >= limits.high[i] && slope < 0.0)) {
@@ -91,7 +91,7 @@ Theta newton_step(const Place& place) {
   constexpr double kLongestStep = 4.0;
   const linear::SymmetricEigen solver(restricted(place.derivatives.hessian, place.free));
   const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().lpNorm<Eigen::Infinity>());
-  const Eigen::VectorXd turned = solver.eigenvectors().transpose() * place.derivatives.gradient;
+  const VectorXd turned = solver.eigenvectors().transpose() * place.derivatives.gradient;
   const Theta step = -(solver.eigenvectors() *
                        turned.cwiseQuotient(solver.eigenvalues().cwiseAbs().cwiseMax(floor)));
   const double longest = step.lpNorm<Eigen::Infinity>();
@@ -110,13 +110,13 @@ Theta steps_of(const SearchResult& found) {
   constexpr double kShortest = 0.2;
   constexpr double kLongest = 1.0;
   const auto& [low, high] = found.limits;
-  const Eigen::Matrix2d& hessian = found.derivatives.hessian;
+  const Matrix2d& hessian = found.derivatives.hessian;
   const bool lambda_inside =
       low[0] < high[0] && ends_inside(found.state.theta[0], low[0], high[0], hessian(0, 0));
   const linear::SymmetricEigen solver(
       restricted(0.5 * hessian, {lambda_inside ? 1.0 : 0.0, low[1] < high[1] ? 1.0 : 0.0}));
   // A flat direction would have an unbounded variance: ten decades of lambda are the limit.
-  const Eigen::VectorXd variance =
+  const VectorXd variance =
       solver.eigenvalues().cwiseMax(1.0 / (kHalfRange * kHalfRange)).cwiseInverse();
   Theta sigma = (solver.eigenvectors().cwiseAbs2() * variance).cwiseSqrt();
   if (!lambda_inside) sigma[0] = kLongest;
@@ -144,7 +144,7 @@ class Walker {
   // Visits `from`, then the places to either side as long as `visit` returns true. It may change
   // the other unknown for the places farther out.
   template <class Visit>
-  void outward(const Theta& from, Eigen::Index along, const Visit& visit) const {
+  void outward(const Theta& from, Index along, const Visit& visit) const {
     constexpr int kMost = 60;
     for (const double direction : {-1.0, 1.0}) {
       Theta theta = from;

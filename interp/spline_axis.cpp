@@ -45,7 +45,7 @@ AxisEnds effective(const AxisEnds& ends, std::size_t nodes) {
 
 // The condition as weights on the slopes at the end, in the middle and at the far side of the end
 // cell, between which the slope of a cubic is a parabola.
-Eigen::Vector3d slope_condition(EndCondition end) {
+Vector3d slope_condition(EndCondition end) {
   if (end == EndCondition::natural) return {3.0, -4.0, 1.0};
   if (end == EndCondition::parabolic) return {1.0, -2.0, 1.0};
   return {1.0, 0.0, 0.0};
@@ -56,7 +56,7 @@ Eigen::Vector3d slope_condition(EndCondition end) {
 SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends, int degree)
     : nodes_(std::move(nodes)), degree_(degree) {
   check_nodes(nodes_);
-  const auto n = static_cast<Eigen::Index>(nodes_.size());
+  const auto n = static_cast<Index>(nodes_.size());
   if (n <= degree) degree_ = 3;
   const auto [low, high] = effective(ends, nodes_.size());
   const auto left_out = [&](EndCondition end) {
@@ -67,19 +67,19 @@ SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends, int degr
   knots_.insert(knots_.end(), nodes_.begin() + 1 + left_out(low),
                 nodes_.end() - 1 - left_out(high));
   knots_.insert(knots_.end(), at_end, nodes_.back());
-  const auto functions = static_cast<Eigen::Index>(knots_.size() - at_end);
-  Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(functions, functions);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(functions, n + 2);
+  const auto functions = static_cast<Index>(knots_.size() - at_end);
+  MatrixXd equations = MatrixXd::Zero(functions, functions);
+  MatrixXd right = MatrixXd::Zero(functions, n + 2);
   right.topLeftCorner(n, n).setIdentity();
-  Eigen::Index row = 0;
+  Index row = 0;
   for (const double node : nodes_) {
     const SplineSupport s = support(node);
     equations.row(row++).segment(s.first, s.count) = s.value.head(s.count);
   }
-  const auto add_end = [&](EndCondition end, double at, double inward, Eigen::Index given) {
+  const auto add_end = [&](EndCondition end, double at, double inward, Index given) {
     if (end == EndCondition::not_a_knot) return;
-    const Eigen::Vector3d weights = slope_condition(end);
-    for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vector3d weights = slope_condition(end);
+    for (Index k = 0; k < 3; ++k) {
       const SplineSupport s = support(at + 0.5 * static_cast<double>(k) * inward);
       equations.row(row).segment(s.first, s.count) += weights[k] * s.slope.head(s.count);
     }
@@ -105,10 +105,10 @@ SplineSupport SplineAxis::support(double x) const {
   auto& b = result.value;
   auto& slope = result.slope;
   b[0] = 1.0;
-  for (Eigen::Index d = 1; d <= degree_; ++d) {
+  for (Index d = 1; d <= degree_; ++d) {
     double carried = 0.0;
     slope[0] = 0.0;
-    for (Eigen::Index r = 0; r < d; ++r) {
+    for (Index r = 0; r < d; ++r) {
       const double right = knots_[static_cast<std::size_t>(span + r + 1)];
       const double left = knots_[static_cast<std::size_t>(span + 1 + r - d)];
       const double part = b[r] / (right - left);
@@ -122,18 +122,17 @@ SplineSupport SplineAxis::support(double x) const {
   return result;
 }
 
-Eigen::MatrixXd SplineAxis::coefficients(
-    const Eigen::Ref<const Eigen::MatrixXd>& conditions) const {
+MatrixXd SplineAxis::coefficients(const Eigen::Ref<const MatrixXd>& conditions) const {
   return solution_ * conditions;
 }
 
-Eigen::VectorXd SplineAxis::cardinal_weights(double x) const {
+VectorXd SplineAxis::cardinal_weights(double x) const {
   const SplineSupport s = support(x);
   return solution_.block(s.first, 0, s.count, std::ssize(nodes_)).transpose() *
          s.value.head(s.count);
 }
 
-Eigen::VectorXd SplineAxis::slope_weights(double x) const {
+VectorXd SplineAxis::slope_weights(double x) const {
   const SplineSupport s = support(x);
   return solution_.block(s.first, 0, s.count, std::ssize(nodes_)).transpose() *
          s.slope.head(s.count);

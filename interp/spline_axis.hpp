@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include "interp/eigen.hpp"
 
 namespace chaintrue::interp {
 
@@ -38,8 +38,8 @@ struct AxisEnds {
 
 /// Values and slopes at a point of the degree + 1 B-splines that do not vanish there.
 struct SplineSupport {
-  Eigen::Index first;
-  Eigen::Index count;
+  Index first;
+  Index count;
   Eigen::Matrix<double, 6, 1> value;  ///< the first `count` of them
   Eigen::Matrix<double, 6, 1> slope;
 };
@@ -47,7 +47,7 @@ struct SplineSupport {
 /// One axis with its ends. Immutable; safe to share between threads.
 ///
 ///     SplineAxis axis({0.0, 1.0, 3.0, 4.0});
-///     Eigen::Vector4d weights = axis.cardinal_weights(2.5);   // spline(2.5) = weights . f
+///     Vector4d weights = axis.cardinal_weights(2.5);   // spline(2.5) = weights . f
 class SplineAxis {
  public:
   /// A quintic's ends are not-a-knot. Throws std::invalid_argument for others, and unless there are
@@ -62,18 +62,18 @@ class SplineAxis {
 
   /// Coefficients of the splines through each column of `conditions`: the values at the nodes, then the slopes at
   /// the low and the high end, which count where these are clamped.
-  Eigen::MatrixXd coefficients(const Eigen::Ref<const Eigen::MatrixXd>& conditions) const;
+  MatrixXd coefficients(const Eigen::Ref<const MatrixXd>& conditions) const;
 
   /// The spline at x, or its slope there, as weights on the node values (clamped ends: slope zero).
-  Eigen::VectorXd cardinal_weights(double x) const;
-  Eigen::VectorXd slope_weights(double x) const;
+  VectorXd cardinal_weights(double x) const;
+  VectorXd slope_weights(double x) const;
 
  private:
   std::vector<double> nodes_;
   int degree_;
   std::vector<double> knots_;  // degree + 1 times each end
   /// The coefficients are this times the conditions.
-  Eigen::MatrixXd solution_;
+  MatrixXd solution_;
 };
 
 }  // namespace chaintrue::interp

@@ -25,20 +25,20 @@ bool have_same_nodes(const SplineAxis& a, const SplineAxis& b) {
 
 // The splines that do not vanish in a cell.
 struct SplinesInCell {
-  Eigen::Index first;
-  Eigen::Matrix4d powers;  // (power, spline)
+  Index first;
+  Matrix4d powers;  // (power, spline)
 };
 
 std::vector<SplinesInCell> splines_in_cells(const SplineAxis& axis) {
   // Inside the cell: at its ends, rounding decides between it and the next one.
-  const Eigen::Vector4d places(0.125, 0.375, 0.625, 0.875);
-  const Eigen::Matrix4d to_powers = powers_through(places);
+  const Vector4d places(0.125, 0.375, 0.625, 0.875);
+  const Matrix4d to_powers = powers_through(places);
   std::vector<SplinesInCell> cells;
   const auto nodes = axis.nodes();
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     SplinesInCell cell;
-    Eigen::Matrix4d values;
-    for (Eigen::Index k = 0; k < 4; ++k) {
+    Matrix4d values;
+    for (Index k = 0; k < 4; ++k) {
       const SplineSupport s = axis.support(nodes[i] + places[k] * (nodes[i + 1] - nodes[i]));
       if (s.count != 4) throw std::invalid_argument("a pair of splines that are not bicubic");
       cell.first = s.first;
@@ -52,9 +52,9 @@ std::vector<SplinesInCell> splines_in_cells(const SplineAxis& axis) {
 
 }  // namespace
 
-Eigen::Matrix4d powers_through(const Eigen::Vector4d& places) {
-  Eigen::Matrix4d powers;
-  for (Eigen::Index i = 0; i < 4; ++i) powers.col(i) = places.array().pow(static_cast<double>(i));
+Matrix4d powers_through(const Vector4d& places) {
+  Matrix4d powers;
+  for (Index i = 0; i < 4; ++i) powers.col(i) = places.array().pow(static_cast<double>(i));
   return powers.inverse();
 }
 

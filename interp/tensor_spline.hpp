@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "interp/eigen.hpp"
 #include "interp/spline_axis.hpp"
 #include "interp/surface.hpp"
 
@@ -30,10 +29,10 @@ struct TensorEnds {
 /// Slopes along clamped edges. An empty vector means zero slope. At a corner where two clamped
 /// edges meet, the twist is the derivative along x of the given edge slopes (not-a-knot).
 struct EdgeSlopes {
-  Eigen::VectorXd x_low;   ///< df/dx along x = x_min, one for each y node
-  Eigen::VectorXd x_high;  ///< df/dx along x = x_max
-  Eigen::VectorXd y_low;   ///< df/dy along y = y_min, one for each x node
-  Eigen::VectorXd y_high;  ///< df/dy along y = y_max
+  VectorXd x_low;   ///< df/dx along x = x_min, one for each y node
+  VectorXd x_high;  ///< df/dx along x = x_max
+  VectorXd y_low;   ///< df/dy along y = y_min, one for each x node
+  VectorXd y_high;  ///< df/dy along y = y_max
 };
 
 /// Two solved axes, shared by surfaces on the same grid.
@@ -54,11 +53,11 @@ class TensorSpline final : public Surface {
   /// `values(ix, iy)` is the value at (x node ix, y node iy). Throws std::invalid_argument when the
   /// shape does not fit the axes or a value is not finite.
   TensorSpline(std::vector<double> x_nodes, std::vector<double> y_nodes,
-               const Eigen::Ref<const Eigen::MatrixXd>& values, const TensorEnds& ends = {},
+               const Eigen::Ref<const MatrixXd>& values, const TensorEnds& ends = {},
                const EdgeSlopes& slopes = {});
   /// On axes that are already solved.
-  TensorSpline(std::shared_ptr<const TensorAxes> axes,
-               const Eigen::Ref<const Eigen::MatrixXd>& values, const EdgeSlopes& slopes = {});
+  TensorSpline(std::shared_ptr<const TensorAxes> axes, const Eigen::Ref<const MatrixXd>& values,
+               const EdgeSlopes& slopes = {});
 
   ValueGradient at(double x, double y) const override;
   double value(double x, double y) const { return at(x, y).value; }
@@ -66,15 +65,15 @@ class TensorSpline final : public Surface {
 
   const TensorAxes& axes() const { return *axes_; }
   /// Coefficients of the products of the two axes' B-splines, (x, y).
-  const Eigen::MatrixXd& coefficients() const { return coefficients_; }
+  const MatrixXd& coefficients() const { return coefficients_; }
 
   /// The surface at (x, y) as weights on the node values, w(ix, iy), which propagate the covariance
   /// of the measured values to any point. Clamped ends count as clamped to zero slope.
-  Eigen::MatrixXd cardinal_weights(double x, double y) const;
+  MatrixXd cardinal_weights(double x, double y) const;
 
  private:
   std::shared_ptr<const TensorAxes> axes_;
-  Eigen::MatrixXd coefficients_;
+  MatrixXd coefficients_;
 };
 
 }  // namespace chaintrue::interp
