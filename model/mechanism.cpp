@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -144,7 +144,7 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
     const Eigen::VectorXd missing = missing_at(*there);
     const Eigen::MatrixX2d slope = weight.asDiagonal() * there->by_position;
     const Eigen::Matrix2d normal = slope.transpose() * slope;
-    Eigen::Vector2d move = normal.ldlt().solve(slope.transpose() * missing);
+    Eigen::Vector2d move = normal.inverse() * (slope.transpose() * missing);
     if (!move.allFinite()) break;
     const bool is_converged = move.norm() < kConvergedMm;
     const double left = step > 0 ? move.dot(last_move) / last_move.squaredNorm() : 0.0;

@@ -78,7 +78,7 @@ Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
   const Block& block = blocks_[slots_[point]->block];
   const Index at = 2 * slots_[point]->place;
   const Matrix2Xd gain = block.by_unknown.middleRows<2>(at);
-  return block.inverse.block<2, 2>(at, at) + gain * covariance_ * gain.transpose();
+  return block.inverse.block<2, 2>(at, at) + linear::carried(gain, covariance_);
 }
 
 VectorXd FitDiagnostics::influence(std::size_t point, model::Belt belt) const {

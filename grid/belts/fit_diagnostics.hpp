@@ -31,6 +31,7 @@
 #include "grid/containers.hpp"
 #include "grid/eigen.hpp"
 #include "grid/observation/belt_lengths.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -98,7 +99,8 @@ class FitDiagnostics {
     bool is_taped = false;
     /// X' w A, and the gradient X' w r.
     MatrixXd precision() const {
-      return left.transpose() * line.weight.asDiagonal() * line.by_parameter;
+      const MatrixXd weighed = line.weight.asDiagonal() * line.by_parameter;
+      return linear::product(linear::transposed(left), weighed);
     }
     VectorXd gradient() const {
       return left.transpose() * line.weight.cwiseProduct(line.residual_mm);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/bed_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,6 +11,7 @@
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -65,8 +65,7 @@ bool lie_on_a_line(const std::vector<Vector2d>& places) {
   for (const auto& at : places) mean += at / as_double(places.size());
   Matrix2d scatter = Matrix2d::Zero();
   for (const auto& at : places) scatter += (at - mean) * (at - mean).transpose();
-  const Vector2d squares =
-      Eigen::SelfAdjointEigenSolver<Matrix2d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  const VectorXd squares = linear::SymmetricEigen(scatter).eigenvalues();
   return squares(0) <= kOnALine * kOnALine * squares(1);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/eigen.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -162,8 +162,8 @@ Unexplained pattern_of_belts(const BeltsAnalysis& a) {
 
 /// Residual chi^2 of a place's other readings at their best position.
 double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
-  Eigen::Matrix<double, 3, 1> residual;
-  Eigen::Matrix<double, 3, 2> by_place;
+  VectorXd residual(3);
+  MatrixXd by_place(3, 2);
   Index row = 0;
   for (const Belt belt : kBelts) {
     if (belt == without) continue;
@@ -171,8 +171,7 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
     residual(row) = view.equations().residual_mm(at) / view.sigma_mm();
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
-  const Vector2d moved =
-      Eigen::LDLT<Matrix2d>(by_place.transpose() * by_place).solve(by_place.transpose() * residual);
+  const VectorXd moved = linear::least_squares(by_place, residual);
   return (residual - by_place * moved).squaredNorm();
 }
 

@@ -237,7 +237,7 @@ Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit) {
     return noise;
   }
   const Matrix2d to_tool =
-      system.places[own.places.front().place].state.by_mark.inverse() * own.whitening.inverse();
+      Matrix2d(own.whitening * system.places[own.places.front().place].state.by_mark).inverse();
   return to_tool * to_tool.transpose();
 }
 

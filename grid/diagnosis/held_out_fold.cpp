@@ -72,8 +72,9 @@ ExpectedImprovement over_units(const RegressorSystem& there, const VectorXd& mov
   for (const SystemUnit& unit : there.units) {
     const MatrixXd by_unknown = design.middleRows(unit.first_row, unit.rows);
     if (unit.reads_chains) {
-      const Matrix2d to_tool = there.places[unit.places.front().place].state.by_mark.inverse() *
-                               unit.whitening.inverse();
+      const Matrix2d by_mark =
+          unit.whitening * there.places[unit.places.front().place].state.by_mark;
+      const Matrix2d to_tool = by_mark.inverse();
       const MatrixXd tool = to_tool * by_unknown;
       drop += (to_tool * moved.segment<2>(unit.first_row)).squaredNorm();
       doubt += linear::carried(tool, covariance).trace();

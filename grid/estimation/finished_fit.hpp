@@ -11,6 +11,7 @@
 #include "grid/containers.hpp"
 #include "grid/eigen.hpp"
 #include "grid/estimation/left_out.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -30,7 +31,7 @@ inline MatrixXd map_covariance(const JointProblem& problem, const interp::Penali
     spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) = observed->polynomials;
     spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) = observed->penalised;
   }
-  MatrixXd result = to_splines * problem.covariance(fit) * to_splines.transpose();
+  MatrixXd result = linear::carried(to_splines, problem.covariance(fit));
   if (observed == nullptr) return result;
   const MatrixXd unobserved =
       fit.inverse_lambda * observed->null_space * observed->null_space.transpose();
@@ -91,14 +92,14 @@ struct FinishedFit {
     for (std::size_t u = 0; u < problem.units().size(); ++u) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
-      const UnitMatrix back = unit.whitening.inverse();
+      const MatrixXd back = unit.whitening.inverse();
       const MatrixXd rows = problem.design().middleRows(unit.first_row, unit.rows);
       const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
       UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};
       own.residual = back * (unit.segment(problem.response()) - rows * fit.coefficients);
       const LeftOut::Conditioned conditioned = left_out.conditioned(u);
       own.left_out = back * conditioned.residual;
-      own.left_out_covariance = back * conditioned.covariance * back.transpose();
+      own.left_out_covariance = linear::carried(back, conditioned.covariance);
       estimate.units.push_back(std::move(own));
     }
     for (const Shift& one : shifts(problem, fit, true)) {

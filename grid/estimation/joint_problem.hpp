@@ -24,6 +24,7 @@
 #include "grid/estimation/unknowns.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/linear_algebra.hpp"
 #include "interp/measured_region.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -169,7 +170,7 @@ class JointProblem {
     if (free_.columns.empty()) return fit.corrected_covariance;
     MatrixXd follows = MatrixXd::Identity(unknowns_.total(), unknowns_.total());
     follows(free_.columns, Eigen::all) = free_.following;
-    return follows * fit.corrected_covariance * follows.transpose();
+    return linear::carried(follows, fit.corrected_covariance);
   }
 
   /// The state that a fit of the problem leads to.

@@ -37,7 +37,7 @@ void add_units(const ObservationSet& set, std::size_t number, const Linearisatio
     unit.rows = rows.rows;
     unit.whitening = unit_whitening(line.units[u].covariance);
     unit.reads_chains = part.reads_chains();
-    const UnitMatrix& w = unit.whitening;
+    const MatrixXd& w = unit.whitening;
     const auto own = Eigen::seqN(unit.first_row, unit.rows);
     system.e(own) = w * residual;
     system.response(own) = w * (residual + by_setting * settings).eval();

@@ -46,8 +46,8 @@ struct SystemUnit {
   std::size_t unit = 0;  ///< into the observation's
   Index first_row = 0;
   Index rows = 1;
-  UnitMatrix whitening = UnitMatrix::Identity(1, 1);  ///< W_u
-  bool reads_chains = false;                          ///< the rows are the chains at its only place
+  MatrixXd whitening = MatrixXd::Identity(1, 1);  ///< W_u
+  bool reads_chains = false;                      ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
   /// The effect of a millimetre of each reading on the whitened rows; empty: the unit is an outlier

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/placement_fit.hpp"
 
-#include <Eigen/Cholesky>
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -15,7 +15,7 @@ model::SheetPlacement fit_placement(const LinearisedAt& linearised,
     PlacementNormal sum;
     if (!linearised({at.x(), at.y(), at.z()}, sum)) break;
     sum.normal.diagonal() += precision;
-    at += Eigen::LDLT<Eigen::Matrix3d>(sum.normal).solve(sum.right - precision.cwiseProduct(at));
+    at += linear::PivotedCholesky(sum.normal).solve(sum.right - precision.cwiseProduct(at));
   }
   return {at.x(), at.y(), at.z()};
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/unit_whitening.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
 #include "grid/precondition.hpp"
@@ -10,18 +8,14 @@
 
 namespace chaintrue::grid::estimation {
 
-UnitMatrix unit_whitening(const MatrixXd& covariance) {
+MatrixXd unit_whitening(const MatrixXd& covariance) {
   const Index n = covariance.rows();
   if (n < 1 || n > kMostUnitReadings || covariance.cols() != n) {
     throw precondition(
         "the covariance of a unit's readings is {} x {}; 1 to {} readings are allowed", n,
         covariance.cols(), kMostUnitReadings);
   }
-  if (n == 1) return UnitMatrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
-  if (n == 2) {
-    const Matrix2d lower = Eigen::LLT<Matrix2d>(covariance).matrixL();
-    return lower.inverse();
-  }
+  if (n == 1) return MatrixXd::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
   return linear::Cholesky(covariance).half_solve(MatrixXd::Identity(n, n));
 }
 

@@ -7,8 +7,6 @@
 /// for readings with covariance C. Source: G. Golub and C. Van Loan, Matrix Computations (2013), section 6.1.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "grid/eigen.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -16,9 +14,7 @@ namespace chaintrue::grid::estimation {
 /// Most readings of one unit: four belts at a place.
 inline constexpr int kMostUnitReadings = 4;
 
-using UnitMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnitReadings, kMostUnitReadings>;
 /// W of (1), of at most kMostUnitReadings readings. \throws std::invalid_argument with more.
-UnitMatrix unit_whitening(const MatrixXd& covariance);
+MatrixXd unit_whitening(const MatrixXd& covariance);
 
 }  // namespace chaintrue::grid::estimation

@@ -2,7 +2,6 @@
 #include "grid/files/grid_checks.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -69,7 +68,7 @@ std::optional<model::PerSide<Slope>> slopes_of(const std::vector<MeasuredPoint>&
   const Matrix2d spread = products.topLeftCorner<2, 2>();
   constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
-  const Matrix2d slope = Eigen::LDLT<Matrix2d>(spread).solve(products.topRightCorner<2, 2>());
+  const Matrix2d slope = spread.inverse() * products.topRightCorner<2, 2>();
   return model::PerSide<Slope>{{slope(0, 0), slope(1, 0)}, {slope(0, 1), slope(1, 1)}};
 }
 

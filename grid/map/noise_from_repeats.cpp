@@ -2,6 +2,7 @@
 #include "grid/map/noise_from_repeats.hpp"
 
 #include "grid/observation/length_points.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 
@@ -40,6 +41,22 @@ std::optional<RepeatNoise> noise_from_repeats(const std::vector<FittedPoint>& po
     scatter.end_group();
   }
   return scatter.noise();
+}
+
+void RepeatScatter::add(const Vector2d& residual_mm, const Matrix2d& by_mark) {
+  const linear::Cholesky factor(observation::covariance_of(noise_, by_mark));
+  group_.emplace_back(factor.half_solve(VectorXd(residual_mm)));
+  const MatrixXd rounding = observation::covariance_of(rounding_, by_mark);
+  rounding_squares_ += factor.solve(rounding).trace();
+  rows_ += 2.0;
+}
+
+void RepeatScatter::end_group() {
+  Vector2d mean = Vector2d::Zero();
+  for (const Vector2d& w : group_) mean += w / as_double(group_.size());
+  for (const Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
+  if (!group_.empty()) dof_ += 2.0 * as_double(group_.size() - 1);
+  group_.clear();
 }
 
 }  // namespace chaintrue::grid

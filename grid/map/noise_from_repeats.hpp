@@ -42,21 +42,9 @@ class RepeatScatter {
   RepeatScatter(const observation::PointNoise& noise, const observation::PointNoise& rounding)
       : noise_(noise), rounding_(rounding) {}
   /// \param by_mark derivatives of the lengths by the mark
-  void add(const Vector2d& residual_mm, const Matrix2d& by_mark) {
-    const Eigen::LLT<Matrix2d> factor(observation::covariance_of(noise_, by_mark));
-    group_.emplace_back(factor.matrixL().solve(residual_mm));
-    const Matrix2d rounding = observation::covariance_of(rounding_, by_mark);
-    rounding_squares_ += factor.solve(rounding).trace();
-    rows_ += 2.0;
-  }
+  void add(const Vector2d& residual_mm, const Matrix2d& by_mark);
 
-  void end_group() {
-    Vector2d mean = Vector2d::Zero();
-    for (const Vector2d& w : group_) mean += w / as_double(group_.size());
-    for (const Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
-    if (!group_.empty()) dof_ += 2.0 * as_double(group_.size() - 1);
-    group_.clear();
-  }
+  void end_group();
 
   std::optional<RepeatNoise> noise() const {
     constexpr double kFewestDof = 4.0;

@@ -138,8 +138,8 @@ class FactoredCovariance {
         // The variance of a unit given all other readings is at most its prior variance.
         const linear::SymmetricEigen parts(linear::gram(own));
         const VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
-        const MatrixXd turned = parts.eigenvectors().transpose() * white;
-        result.emplace_back(turned.transpose() * left.asDiagonal() * turned);
+        const MatrixXd turned = linear::product(linear::transposed(parts.eigenvectors()), white);
+        result.push_back(linear::gram(left.cwiseSqrt().asDiagonal() * turned));
         row += white.rows();
       }
       first_row += rows;

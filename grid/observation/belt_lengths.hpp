@@ -127,7 +127,6 @@ class BeltLengthReadings final : public Observation {
                                                              bool with_parameters) const;
 
   /// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
-  BlockRows rows_of_four(const BlockLine& line) const;
 
   void join_places();
   void number_rows(const Block& block, std::vector<double>& measured);

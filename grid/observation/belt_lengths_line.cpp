@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -173,8 +172,6 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const LengthsAtPlace* first = block.places.empty() ? nullptr : &readings_[block.places.front()];
   const bool is_known = first != nullptr && first->known;
   const bool is_alone = block.places.size() == 1 && block.distances.empty();
-  if (is_alone && !is_known && line->weight.size() == 4 && line->weight.minCoeff() == 1.0)
-    return rows_of_four(*line);
   std::vector<Index> rows;
   for (Index i = 0; i < line->weight.size(); ++i) {
     if (line->weight[i] > 0.0) rows.push_back(i);
@@ -205,16 +202,6 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
     result.by_reading(Eigen::all, rows) = checks.transpose();
   }
   return result;
-}
-
-BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
-  const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
-  const Eigen::Matrix4d q =
-      Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
-  const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
-  const double variance = noise_.length_mm * noise_.length_mm;
-  return {-checks * line.residual_mm, checks * line.by_parameter, variance * Matrix2d::Identity(),
-          checks};
 }
 
 }  // namespace chaintrue::grid::observation

@@ -2,6 +2,7 @@
 #include "grid/observation/observation.hpp"
 
 #include "grid/containers.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -29,7 +30,7 @@ const std::vector<const Kind*>& kinds() {
 
 MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance_sigma) {
   const MatrixXd shared = line.by_nuisance * nuisance_sigma.asDiagonal();
-  MatrixXd covariance = shared * shared.transpose();
+  MatrixXd covariance = linear::outer(shared);
   Index row = 0;
   for (const UnitState& unit : line.units) {
     const Index n = unit.covariance.rows();

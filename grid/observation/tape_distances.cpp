@@ -12,6 +12,7 @@
 #include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/effects/catalogue.hpp"
@@ -97,10 +98,8 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   for (Index k = 0; k < count; ++k) {
     noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[as_size(k)]), 2);
   }
-  noise.holes_mm2 =
-      set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
-  noise.size_mm2 =
-      std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
+  noise.holes_mm2 = std::pow(set.hole_sigma_mm, 2) * linear::outer(geometry.by_mark);
+  noise.size_mm2 = std::pow(set.sheet.size_sigma_mm, 2) * linear::outer(geometry.by_size);
   noise.tape_zero_mm2 = MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
   return noise;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/synthetic/strength.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/estimation/unit_whitening.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "grid/synthetic/design.hpp"
@@ -98,8 +98,7 @@ StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Vi
     const Matrix2d covariance = j * j.transpose() * (noise.position_mm * noise.position_mm) +
                                 Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
     length_by_xy_.push_back(j);
-    const Matrix2d lower = Eigen::LLT<Matrix2d>(covariance).matrixL();
-    whitening_.emplace_back(lower.inverse());
+    whitening_.emplace_back(estimation::unit_whitening(covariance));
     for (Index k = 0; k < settings; ++k) {
       by_setting.block<2, 1>(2 * i, k) =
           whitening_.back() * model.sensitivity(*reading, model::kMachineSettings[as_size(k)]);

@@ -32,7 +32,7 @@ TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {
     SCOPED_TRACE(n);
     const Eigen::MatrixXd root = random_matrix(n, n, random);
     const Eigen::MatrixXd covariance = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
-    const UnitMatrix w = unit_whitening(covariance);
+    const Eigen::MatrixXd w = unit_whitening(covariance);
     const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
     EXPECT_LT(largest(w * covariance * w.transpose() - one), kRoundingOfSums);
     EXPECT_LT(largest(w * w.inverse() - one), kRoundingOfSums);
