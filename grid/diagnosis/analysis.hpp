@@ -34,7 +34,7 @@ struct Analysis {
   /// Results by quarters of the bed; empty without a pattern or such parts.
   std::vector<PartPosterior> parts;
   /// Results of each session alone; empty for a single one.
-  std::vector<SessionPosterior> sessions;
+  std::vector<PartPosterior> sessions;
   Decision decision;
   /// Kernel of the decision's discrepancy; null if it has none.
   std::shared_ptr<const DiscrepancyNoise> noise;

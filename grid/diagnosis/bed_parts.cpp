@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -11,6 +10,7 @@
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
+#include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -40,31 +40,24 @@ struct UnitPlace {
   Vector2d at;
 };
 
-Vector2d place_of(const RegressorSystem& system, std::size_t u) {
-  const SystemUnit& unit = system.units[u];
-  Vector2d sum = Vector2d::Zero();
-  for (const observation::PlaceColumns& place : unit.places) {
-    const model::MarkPoint& mark = system.places[place.place].mark;
-    sum += Vector2d(mark.x_mm, mark.y_mm);
-  }
-  return sum / as_double(unit.places.size());
-}
-
-std::vector<UnitPlace> places_of_units(const RegressorSystem& system, const Flags& excluded) {
+std::vector<UnitPlace> places_of_units(const RegressorSystem& system) {
   std::vector<UnitPlace> result;
-  const KeptRows kept(system, excluded);
-  for (const KeptRows::Unit& unit : kept.units()) {
-    if (system.units[unit.unit].places.empty()) continue;
-    result.push_back({unit.unit, place_of(system, unit.unit)});
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    const auto& places = system.units[u].places;
+    if (places.empty()) continue;
+    Vector2d sum = Vector2d::Zero();
+    for (const observation::PlaceColumns& own : places)
+      sum += vector_of(system.places[own.place].mark);
+    result.push_back({u, sum / as_double(places.size())});
   }
   return result;
 }
 
-bool lie_on_a_line(const std::vector<Vector2d>& places) {
+bool lie_on_a_line(const std::vector<UnitPlace>& places) {
   Vector2d mean = Vector2d::Zero();
-  for (const auto& at : places) mean += at / as_double(places.size());
+  for (const UnitPlace& own : places) mean += own.at / as_double(places.size());
   Matrix2d scatter = Matrix2d::Zero();
-  for (const auto& at : places) scatter += (at - mean) * (at - mean).transpose();
+  for (const UnitPlace& own : places) scatter += (own.at - mean) * (own.at - mean).transpose();
   const VectorXd squares = linear::SymmetricEigen(scatter).eigenvalues();
   return squares(0) <= kOnALine * kOnALine * squares(1);
 }
@@ -77,8 +70,7 @@ ModelKey key_of(const CandidateModel& model) {
 PartPosterior summary(const RegressorSystem& system,
                       const std::vector<const CandidateModel*>& models,
                       const std::vector<double>& probability, BedPart part) {
-  PartPosterior result;
-  result.left_out = std::move(part);
+  PartPosterior result{std::move(part)};
   for (std::size_t k = 0; k < models.size(); ++k) {
     if (!models[k]->regressors.empty()) result.caused += probability[k];
     for (const int regressor : models[k]->regressors) {
@@ -88,36 +80,21 @@ PartPosterior summary(const RegressorSystem& system,
       own.second += probability[k];
     }
   }
-  for (auto& own : result.causes) own.second = std::min(own.second, 1.0);
   result.caused = std::min(result.caused, 1.0);
-  stable_sort(result.causes, [](const auto& x, const auto& y) { return x.second > y.second; });
   return result;
 }
 
-/// Averaged share of each followed model with a pattern among those.
-std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateModel*>& models,
-                                              const std::vector<double>& sum) {
-  double all = 0.0;
-  for (std::size_t k = 0; k < models.size(); ++k) {
-    if (models[k]->discrepancy >= 0) all += sum[k];
-  }
-  std::map<ModelKey, double> result;
-  if (!(all > 0.0)) return result;
-  for (std::size_t k = 0; k < models.size(); ++k) {
-    if (models[k]->discrepancy >= 0) result.emplace(key_of(*models[k]), sum[k] / all);
-  }
-  return result;
-}
-
-/// Redistributes the total weight of models with a pattern among the followed ones; those without
-/// keep theirs.
-void redistribute(const std::map<ModelKey, double>& shares, double together,
+/// Shares out the total weight of models with a pattern in proportion to these weights of some; those
+/// without keep theirs.
+void redistribute(const std::map<ModelKey, double>& weights, double together,
                   ModelComparison& comparison) {
   // Floor for a model that no part supports, so that its logarithm is finite.
   constexpr double kNothing = 1e-300;
+  double all = kNothing;
+  for (const auto& [key, weight] : weights) all += weight;
   for (CandidateModel& model : comparison.models) {
-    const auto found = shares.find(key_of(model));
-    const double p = found != shares.end()    ? found->second * together
+    const auto found = weights.find(key_of(model));
+    const double p = found != weights.end()   ? found->second / all * together
                      : model.discrepancy >= 0 ? 0.0
                                               : comparison.probability(model);
     model.log_weight = std::log(std::max(p, kNothing));
@@ -127,31 +104,25 @@ void redistribute(const std::map<ModelKey, double>& shares, double together,
 
 }  // namespace
 
-std::vector<BedPart> bed_parts(const RegressorSystem& system, const Flags& excluded,
-                               std::size_t fewest) {
-  const std::vector<UnitPlace> places = places_of_units(system, excluded);
+std::vector<BedPart> bed_parts(const RegressorSystem& system, std::size_t fewest) {
+  std::vector<UnitPlace> places = places_of_units(system);
   const auto out = static_cast<std::size_t>(kShareLeftOut * as_double(places.size()));
   std::vector<BedPart> parts;
   for (int k = 0; k < kCutDirections && out > 0; ++k) {
     // Half a step from the axes, so that no line runs along the columns of a lattice.
     const double towards = (k + 0.5) * 2.0 * std::numbers::pi / kCutDirections;
     const Vector2d direction(std::cos(towards), std::sin(towards));
-    std::vector<double> along;
-    for (const UnitPlace& place : places) along.push_back(direction.dot(place.at));
-    std::vector<double> sorted = along;
-    sort(sorted, std::greater<>());
+    const auto along = [&](const UnitPlace& own) { return direction.dot(own.at); };
+    stable_sort(places, descending(along));
     // Readings of one mark stay together.
     constexpr double kOneMarkMm = 1e-6;
+    const double last = along(places[out - 1]) - kOneMarkMm;
+    const auto rest = std::find_if(places.begin(), places.end(),
+                                   [&](const UnitPlace& own) { return along(own) < last; });
     BedPart part{towards, {}};
-    std::vector<Vector2d> rest;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (along[i] >= sorted[out - 1] - kOneMarkMm) {
-        part.units.push_back(places[i].unit);
-      } else {
-        rest.push_back(places[i].at);
-      }
-    }
-    if (rest.size() >= std::max<std::size_t>(fewest, 3) && !lie_on_a_line(rest))
+    for (auto own = places.begin(); own != rest; ++own) part.units.push_back(own->unit);
+    const std::size_t left = places.size() - part.units.size();
+    if (left >= std::max<std::size_t>(fewest, 3) && !lie_on_a_line({rest, places.end()}))
       parts.push_back(std::move(part));
   }
   if (2 * parts.size() < as_size(kCutDirections)) parts.clear();
@@ -166,7 +137,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
     if (model.discrepancy >= 0) pattern += comparison.probability(model);
   }
   if (pattern <= kDiscrepancyLikely) return result;
-  std::vector<BedPart> parts = bed_parts(system, nothing_rejected(system), fewest);
+  std::vector<BedPart> parts = bed_parts(system, fewest);
   if (parts.empty()) return result;
   const Downdating downdating(system, comparison, followed_of(system));
   const std::vector<const CandidateModel*> models = downdating.followed();
@@ -174,35 +145,34 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
   for_each_index(parts.size(), [&](std::size_t p) {
     of_part[p] = downdating.probabilities_without(parts[p].units, CountAs::all);
   });
-  std::vector<double> sum(models.size(), 0.0);
+  std::map<ModelKey, double> weights;  // of models with a pattern
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    for (std::size_t k = 0; k < models.size(); ++k) sum[k] += of_part[p][k];
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      if (models[k]->discrepancy >= 0) weights[key_of(*models[k])] += of_part[p][k];
+    }
     result.push_back(summary(system, models, of_part[p], std::move(parts[p])));
   }
-  redistribute(shares_of_patterns(models, sum), pattern, comparison);
+  redistribute(weights, pattern, comparison);
   return result;
 }
 
-std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system, std::size_t fewest,
-                                                 const ModelComparison& comparison) {
-  Indices units;  // of each session
-  for (const SystemUnit& unit : system.units) {
-    if (units.size() <= unit.observation) units.resize(unit.observation + 1, 0);
-    ++units[unit.observation];
-  }
-  std::vector<SessionPosterior> result;
-  if (units.size() < 2) return result;
+std::vector<PartPosterior> session_posteriors(const RegressorSystem& system, std::size_t fewest,
+                                              const ModelComparison& comparison) {
+  std::vector<PartPosterior> result;
+  std::size_t sessions = 0;
+  for (const SystemUnit& unit : system.units) sessions = std::max(sessions, unit.observation + 1);
+  if (sessions < 2) return result;
   const Downdating downdating(system, comparison, followed_of(system));
-  for (std::size_t session = 0; session < units.size(); ++session) {
-    if (units[session] < std::max<std::size_t>(fewest, 1)) continue;
+  for (std::size_t session = 0; session < sessions; ++session) {
     BedPart others;
     for (std::size_t u = 0; u < system.units.size(); ++u) {
       if (system.units[u].observation != session) others.units.push_back(u);
     }
+    if (system.units.size() - others.units.size() < std::max<std::size_t>(fewest, 1)) continue;
     const std::vector<double> own =
         downdating.probabilities_without(others.units, CountAs::themselves);
-    result.push_back(
-        {session, units[session], summary(system, downdating.followed(), own, std::move(others))});
+    result.push_back(summary(system, downdating.followed(), own, std::move(others)));
+    result.back().session = session;
   }
   if (result.size() < 2) result.clear();
   return result;

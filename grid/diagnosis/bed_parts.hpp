@@ -38,18 +38,17 @@ struct BedPart {
   Indices units;
 };
 
-/// The quarters on one side of each of sixteen lines, without units that are `excluded` (flags of
-/// outlier groups); only those that leave at least `fewest` units, not on one line. A distance
-/// counts at its midpoint. Empty where fewer than half of the sixteen can be formed: the least
-/// number of readings in which one direction does not outweigh the others.
-std::vector<BedPart> bed_parts(const RegressorSystem& system, const Flags& excluded,
-                               std::size_t fewest);
+/// The quarters on one side of each of sixteen lines; only those that leave at least `fewest` units, not
+/// on one line. A distance counts at its midpoint. Empty where fewer than half of the sixteen can
+/// be formed: the least number of readings in which one direction does not outweigh the others.
+std::vector<BedPart> bed_parts(const RegressorSystem& system, std::size_t fewest);
 
 /// The result from some of the readings alone.
 struct PartPosterior {
-  BedPart left_out;
-  /// Probability of each cause in any model; the likeliest first.
-  std::vector<std::pair<CauseId, double>> causes;
+  BedPart left_out;         ///< of a session: all others
+  std::size_t session = 0;  ///< into the observations
+  /// Probability of each cause in any model.
+  std::vector<std::pair<CauseId, double>> causes{};
   double caused = 0.0;  ///< that any acts
 };
 
@@ -61,12 +60,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
 /// Results of each session alone; sessions of fewer than `fewest` units are left out, and the
 /// result is empty if fewer than two remain. \pre The comparison's weights are those of all
 /// readings, not averaged.
-struct SessionPosterior {
-  std::size_t session = 0;  ///< into the observations
-  std::size_t units = 0;
-  PartPosterior posterior;
-};
-std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system, std::size_t fewest,
-                                                 const ModelComparison& comparison);
+std::vector<PartPosterior> session_posteriors(const RegressorSystem& system, std::size_t fewest,
+                                              const ModelComparison& comparison);
 
 }  // namespace chaintrue::grid::diagnosis

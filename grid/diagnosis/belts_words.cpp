@@ -155,8 +155,8 @@ void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
     say_remedies(d);
   }
   if (!d.outliers.empty()) {
-    steps.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
-                                joined(outliers_in_words(d), "and")));
+    steps.push_back(
+        fmt::format("Do not trust {}: let the machine measure there again.", outliers_in_words(d)));
   }
   if (const Law* law = claimed_law(d)) {
     steps.push_back(

@@ -7,29 +7,17 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-std::string offered_words(const OfferedCause& offered, const std::string& cause) {
-  switch (offered.reason) {
-    case OfferedCause::Reason::not_sure:
-      return fmt::format(
-          "Possible cause: {}. It is not certain enough to be used in the map; "
-          "chaintrue diagnose proposes what to measure next.",
-          cause);
-    case OfferedCause::Reason::may_be_paper:
-      return fmt::format(
-          "Probable cause: {}. The tape used to place the marks may be wrong instead; marks alone "
-          "cannot show which. Measure a hundred links, or the tape, and enter the reading. If you "
-          "know that it is the chain, use --accept-class.",
-          cause);
-    case OfferedCause::Reason::is_paper:
-      return fmt::format(
-          "Probable cause: {}. The marks themselves are wrong: correct them, or "
-          "place them again.",
-          cause);
-    case OfferedCause::Reason::gains_nothing:
-      break;
-  }
-  return fmt::format("Probable cause: {}. The map already corrects it.", cause);
-}
+/// By OfferedCause::Reason.
+constexpr std::string_view kOffered[] = {
+    "Possible cause: {}. It is not certain enough to be used in the map; chaintrue diagnose "
+    "proposes "
+    "what to measure next.",
+    "Probable cause: {}. The tape used to place the marks may be wrong instead; marks alone cannot "
+    "show which. Measure a hundred links, or the tape, and enter the reading. If you know that it "
+    "is "
+    "the chain, use --accept-class.",
+    "Probable cause: {}. The marks themselves are wrong: correct them, or place them again.",
+    "Probable cause: {}. The map already corrects it."};
 
 }  // namespace
 
@@ -58,8 +46,10 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   }
   if (sentences.empty() && fit.offered.empty())
     sentences.emplace_back("No single cause stands out, and the map needs none.");
-  for (const OfferedCause& offered : fit.offered)
-    sentences.push_back(offered_words(offered, worded(offered.cause)));
+  for (const OfferedCause& offered : fit.offered) {
+    sentences.push_back(fmt::format(
+        fmt::runtime(kOffered[static_cast<std::size_t>(offered.reason)]), worded(offered.cause)));
+  }
   if (fit.left_open_mm > 0.0) {
     sentences.push_back(fmt::format("{}. This contributes {:.2f} mm rms to the expected error.",
                                     fit.offered.empty()

@@ -32,10 +32,7 @@ bool holds(const Analysis& a, const CauseId& cause) {
 
 std::optional<VectorXd> rows_of_claimed_law(const Analysis& a, const LawsFound& laws) {
   if (laws.laws.empty() || laws.laws.front().probability < kLawClaimed) return std::nullopt;
-  const LawsFound::Heaviest& first = laws.heaviest.front();
-  const LawEvidence& evidence = laws.evidence[first.evidence];
-  const WeighedLaw& law = evidence.laws[first.law];
-  VectorXd rows = law_columns(a.system, evidence.curves[law.curve], {law.at}) * law.amplitude;
+  VectorXd rows = laws.heaviest.front().rows(a.system);
   if (a.decision.listed.empty() && !may_name_a_cause(a, rows)) return std::nullopt;
   return rows;
 }

@@ -60,11 +60,13 @@ bool is_refuted(const Analysis& a, const CauseId& cause) {
   const auto g = signature(a.session, a.state, a.system,
                            {cause, model::effects::nominal_values(*cause.effect)});
   if (!g) return false;
-  const LawModel model(a, marginalised_system(a), others_than(a, cause),
-                       a.decision.best_discrepancy);
+  const LawModel model(a, marginalised_system(a),
+                       {others_than(a, cause), a.decision.best_discrepancy});
+  const auto log_density = [](const LawModel::Downdated& rows) {
+    return rows.without({}).log_density;
+  };
   const double odds = kLawClaimed / (1.0 - kLawClaimed);
-  const VectorXd none = VectorXd::Zero(g->size());
-  return model.log_density(none) - model.log_density(*g) > std::log(odds);
+  return log_density(LawModel::Downdated(model)) - log_density({model, *g}) > std::log(odds);
 }
 
 Says said_of(const Analysis& a, const Diagnosis& found, const CauseId& cause, double probability) {

@@ -102,25 +102,8 @@ std::optional<double> part_of_settings(const Analysis& a, const std::vector<Corn
 
 std::optional<double> part_of_pattern(const Analysis& a, const std::vector<Corner>& corners) {
   return over_a_part(corners, [&](const Corner& there) {
-    VectorXd whitened = VectorXd::Zero(there.system.e.size());
-    for (const SystemUnit& unit : there.system.units) {
-      const SystemPlace& place = there.system.places[unit.places.front().place];
-      whitened.segment<2>(unit.first_row) =
-          unit.whitening * discrepancy_at(a.system, marginalised_system(a), a.estimate, place);
-    }
-    return std::optional<VectorXd>(std::move(whitened));
+    return std::optional(pattern_at(a, a.estimate, there.system));
   });
-}
-
-/// Units that count, of those whose error is the tool's where chains were read.
-Indices units_of_budget(const Analysis& a) {
-  const Flags& outliers = marginalised_system(a).outliers;
-  const bool of_tool = a.session.reads_chains();
-  Indices units = numbers_below(outliers.size());
-  std::erase_if(units, [&](std::size_t u) {
-    return outliers[u] || a.system.units[u].reads_chains != of_tool;
-  });
-  return units;
 }
 
 Shifts without(Shifts all, const Shifts& part) {
@@ -143,8 +126,18 @@ void finish(ErrorBudget& budget) {
 
 }  // namespace
 
+Indices units_of_error(const Analysis& a) {
+  const Flags& outliers = marginalised_system(a).outliers;
+  const bool of_tool = a.session.reads_chains();
+  Indices units = numbers_below(outliers.size());
+  std::erase_if(units, [&](std::size_t u) {
+    return outliers[u] || a.system.units[u].reads_chains != of_tool;
+  });
+  return units;
+}
+
 ErrorBudget error_budget(const Analysis& a) {
-  const Indices units = units_of_budget(a);
+  const Indices units = units_of_error(a);
   const auto stated = linearise(a.session, stated_state(a.session));
   if (!stated || units.empty()) return {};
   const Shifts as_delivered = errors_of_units(*stated, stated->e, units);

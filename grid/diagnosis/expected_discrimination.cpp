@@ -6,6 +6,7 @@
 #include <map>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/other_places.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
@@ -21,12 +22,10 @@ constexpr double kLeastProbability =
 using Member = std::pair<std::size_t, std::size_t>;
 
 Member member_of(const Analysis& a, const CauseId& cause) {
-  for (std::size_t k = 0; k < a.decision.classes.size(); ++k) {
-    const CauseClass& members = a.decision.classes[k];
-    const auto found = std::find(members.begin(), members.end(), cause);
-    if (found != members.end()) return {k, as_size(found - members.begin())};
-  }
-  return {a.decision.classes.size(), 0};
+  const std::size_t home = a.decision.class_of(cause);
+  if (home == a.decision.classes.size()) return {home, 0};
+  const CauseClass& members = a.decision.classes[home];
+  return {home, as_size(std::find(members.begin(), members.end(), cause) - members.begin())};
 }
 
 struct Group {
@@ -36,7 +35,7 @@ struct Group {
 
 /// By the classes of the causes, and in each group by the causes. If nothing is named a pattern
 /// forms a separate group.
-std::vector<Group> groups_of(const Analysis& a) {
+std::map<std::pair<bool, Indices>, Group> groups_of(const Analysis& a) {
   std::map<std::pair<bool, Indices>, Group> groups;
   const std::size_t named = a.decision.regressors.size();
   for (const CandidateModel& model : a.comparison.models) {
@@ -56,9 +55,7 @@ std::vector<Group> groups_of(const Analysis& a) {
     one.probability += a.comparison.probability(model);
     group.probability += a.comparison.probability(model);
   }
-  std::vector<Group> result;
-  for (auto& [key, group] : groups) result.push_back(std::move(group));
-  return result;
+  return groups;
 }
 
 /// Adds the discrepancy of the estimate to the prediction for the rows of `system` by kriging, with
@@ -68,14 +65,14 @@ std::vector<Group> groups_of(const Analysis& a) {
 /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
 /// \returns the last.
 MatrixXd add_discrepancy(const Analysis& a, const RegressorSystem& system, const Estimate& fitted,
-                         const LowRankNoise& covariance, VectorXd& mean, MatrixXd& design) {
+                         const LowRankNoise& covariance, ExpectedRows& expected) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
   const MatrixXd k = square * discrepancy_covariance(system, a.system, marginalised.kept, kernel);
   const MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
-  linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
-  linear::add_product(design, -1.0, k, covariance.solve(x));
+  linear::add_product(expected.mean, 1.0, k, fitted.discrepancy_weights);
+  linear::add_product(expected.by_unknown, -1.0, k, covariance.solve(x));
   MatrixXd own = square * discrepancy_covariance(system, KeptRows::all(system), kernel);
   linear::add_gram(own, -1.0, covariance.half_solve(MatrixXd(k.transpose())));
   return without_negligible(own);
@@ -87,27 +84,15 @@ void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& c
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const auto noise = discrepancy_noise(a.system, marginalised, h.discrepancy);
   const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise.get());
+  ExpectedRows expected = expected_rows(a, fitted, system, column_of_cause);
+  h.covariance.setZero(system.e.size(), system.e.size());
+  if (noise) h.covariance = add_discrepancy(a, system, fitted, noise->covariance, expected);
+  h.mean = std::move(expected.mean);
   // Holes not yet cut have their own columns, after all others.
-  const Index settings = fitted.setting_change.size();
-  const Index to_come = system.by_setting.cols() - settings;
-  h.mean = linear::product(system.by_setting.leftCols(settings), fitted.setting_change);
-  const auto free = std::ssize(fitted.free);
-  MatrixXd design(system.by_setting.rows(), settings + free);
-  design.leftCols(settings) = system.by_setting.leftCols(settings);
-  Index column = settings;
-  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
-    const Regressor& d = a.system.regressor(fitted.regressors[k]);
-    const auto g = column_of_cause(d);
-    const VectorXd column_of = g ? *g : VectorXd(VectorXd::Zero(system.by_setting.rows()));
-    h.mean += column_of * fitted.coefficient(as_index(k));
-    if (contains(fitted.free, k)) {
-      design.col(column++) = column_of;
-    }
-  }
-  h.covariance.setZero(design.rows(), design.rows());
-  if (noise) h.covariance = add_discrepancy(a, system, fitted, noise->covariance, h.mean, design);
-  linear::add_outer(h.covariance, 1.0,
-                    linear::product(design, linear::Cholesky(fitted.covariance).lower()));
+  const Index to_come = system.by_setting.cols() - fitted.setting_change.size();
+  linear::add_outer(
+      h.covariance, 1.0,
+      linear::product(expected.by_unknown, linear::Cholesky(fitted.covariance).lower()));
   linear::add_outer(
       h.covariance, 1.0,
       linear::scaled_columns(system.by_setting.rightCols(to_come), system.sigma.tail(to_come)));
@@ -134,17 +119,6 @@ MatrixXd distances(const std::vector<Alternative>& alternatives, const Rows& row
   return d;
 }
 
-/// First and last but one alternative of each group.
-std::vector<std::pair<Index, Index>> groups_in(const std::vector<Alternative>& alternatives) {
-  std::vector<std::pair<Index, Index>> result;
-  for (std::size_t k = 0; k < alternatives.size(); ++k) {
-    const auto at = as_index(k);
-    if (k == 0 || alternatives[k].group != alternatives[k - 1].group) result.emplace_back(at, at);
-    result.back().second = at + 1;
-  }
-  return result;
-}
-
 }  // namespace
 
 MatrixXd without_negligible(const MatrixXd& covariance) {
@@ -159,9 +133,12 @@ void normalise(std::vector<Alternative>& alternatives) {
 }
 
 std::vector<Alternative> alternatives_of_best(const Analysis& a) {
-  std::vector<Group> groups = groups_of(a);
+  std::vector<Group> groups;
   double all = 0.0;
-  for (const Group& group : groups) all += group.probability;
+  for (auto& [key, group] : groups_of(a)) {
+    all += group.probability;
+    groups.push_back(std::move(group));
+  }
   std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
   stable_sort(groups, descending(&Group::probability));
   if (groups.size() > kMostGroups) groups.resize(kMostGroups);
@@ -239,36 +216,38 @@ double chance_of_all(const std::vector<Rival>& rivals) {
 ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
                                                const Rows& rows) {
   const MatrixXd d = distances(alternatives, rows);
-  const auto groups = groups_in(alternatives);
-  const auto p = [&](Index k) { return alternatives[as_size(k)].probability; };
-  const auto sum = [](const auto& group, const auto& term) {
-    double total = 0.0;
-    for (Index k = group.first; k < group.second; ++k) total += term(k);
-    return total;
-  };
+  Index groups = 0;
+  for (const Alternative& one : alternatives) groups = std::max(groups, as_index(one.group) + 1);
+  VectorXd probability = VectorXd::Zero(groups);
+  MatrixXd shared = MatrixXd::Zero(groups, groups);
   ExpectedDiscrimination result;
-  for (const auto& own : groups) {
-    for (const auto& other : groups) {
-      if (other.first >= own.first) break;
-      const double mean = sum(own, [&](Index k) {
-        return sum(other, [&](Index l) { return p(k) * p(l) * std::exp(-d(k, l) / 8.0); });
-      });
-      result.confusion += mean / std::sqrt(sum(own, p) * sum(other, p));
+  for (Index k = 0; k < d.rows(); ++k) {
+    const Alternative& own = alternatives[as_size(k)];
+    const Index of = as_index(own.group);
+    probability(of) += own.probability;
+    // Of each group: log of the sum of p_l exp(-D_kl / 2), the largest term, and D of that member. Two of
+    // these sums differ by the mean log odds of their groups.
+    VectorXd weight = VectorXd::Constant(groups, kMinusInfinity);
+    VectorXd largest = weight;
+    VectorXd nearest(groups);
+    for (Index l = 0; l < d.cols(); ++l) {
+      const Alternative& other = alternatives[as_size(l)];
+      const Index group = as_index(other.group);
+      shared(of, group) += own.probability * other.probability * std::exp(-d(k, l) / 8.0);
+      const double term = std::log(other.probability) - 0.5 * d(k, l);
+      if (term > largest(group)) nearest(group) = d(k, l);
+      largest(group) = std::max(largest(group), term);
+      weight(group) = log_sum(weight(group), term);
     }
-    result.named_alone += sum(own, [&](Index k) {
-      const double weight = sum(own, [&](Index j) { return p(j) * std::exp(-0.5 * d(k, j)); });
-      std::vector<Rival> rivals;
-      for (const auto& other : groups) {
-        if (other.first == own.first) continue;
-        const auto against = [&](Index l) { return 0.5 * d(k, l) - std::log(p(l)); };
-        Index l = other.first;
-        for (Index i = l; i < other.second; ++i) l = against(i) < against(l) ? i : l;
-        const double rival =
-            sum(other, [&](Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
-        rivals.push_back({0.5 * d(k, l) + std::log(weight / rival), d(k, l)});
-      }
-      return rivals.empty() ? p(k) : p(k) * chance_of_all(rivals);
-    });
+    std::vector<Rival> rivals;
+    for (Index group = 0; group < groups; ++group) {
+      if (group != of) rivals.push_back({weight(of) - weight(group), nearest(group)});
+    }
+    result.named_alone += own.probability * (rivals.empty() ? 1.0 : chance_of_all(rivals));
+  }
+  for (Index one = 0; one < groups; ++one) {
+    for (Index other = 0; other < one; ++other)
+      result.confusion += shared(one, other) / std::sqrt(probability(one) * probability(other));
   }
   return result;
 }

@@ -18,6 +18,15 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
+/// Of a column at a step from a value; empty if one of the two machines is invalid.
+template <class At>
+std::optional<VectorXd> central_difference(const At& at, double step) {
+  const auto above = at(step);
+  const auto below = at(-step);
+  if (!above || !below) return std::nullopt;
+  return (*above - *below) / (2.0 * step);
+}
+
 /// Where a cause sets in: parameter `which` of regressor `column`.
 ///
 /// Its sigma is the larger of two: the scatter of the place over the models, and the curvature of the
@@ -61,10 +70,7 @@ class PlaceOfCause {
       there.values[which_] += step;
       return signature(a_.session, a_.state, a_.system, there);
     };
-    const auto above = at(kStep);
-    const auto below = at(-kStep);
-    if (!above || !below) return std::nullopt;
-    return (*above - *below) / (2.0 * kStep);
+    return central_difference(at, kStep);
   }
 
   /// The same with each setting, n x q. A wave along a chain moves along it with the chain's length:
@@ -87,9 +93,7 @@ class PlaceOfCause {
         if (!there) return std::nullopt;
         return signature(a_.session, *state, *there, own_);
       };
-      const auto above = at(step);
-      const auto below = at(-step);
-      if (above && below) slope.col(column) = (*above - *below) / (2.0 * step);
+      if (const auto own = central_difference(at, step)) slope.col(column) = *own;
     }
     return slope;
   }
@@ -282,9 +286,8 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     if (!contains(set, column)) set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
     const Index at = fitted.position(column);
-    const double s = fitted.coefficient_sigma(at);
-    const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
-                                 std::abs(fitted.coefficient(at) - kQuantile95 * s));
+    const double most =
+        std::abs(fitted.coefficient(at)) + kQuantile95 * fitted.coefficient_sigma(at);
     const double upper = std::abs(size_at(regressor(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
       not_testable.push_back({cause, fmt::format("it could hide in these {}, whatever its size",
@@ -309,9 +312,9 @@ std::vector<CalibratedSetting> settings_found(const Analysis& a) {
     one.calibrated = a.system.setting(at) + a.estimate.setting_change(at);
     one.sigma = std::sqrt(a.estimate.setting_covariance(at, at));
     // A posterior mean under the stated prior scatters by sqrt(prior - posterior).
-    const double scatter = std::sqrt(std::max(
-        one.stated_sigma * one.stated_sigma - one.sigma * one.sigma / a.estimate.noise_square,
-        1e-6 * one.stated_sigma * one.stated_sigma));
+    const double prior = one.stated_sigma * one.stated_sigma;
+    const double scatter =
+        std::sqrt(std::max(prior - one.sigma * one.sigma / a.estimate.noise_square, 1e-6 * prior));
     one.off = std::abs(one.calibrated - one.stated) > kSettingOff * scatter;
     result.push_back(one);
   }
@@ -331,30 +334,27 @@ void take_findings(const Analysis& a, Diagnosis& d) {
 
 namespace {
 
-/// The residual of a one-row unit against the prediction by all others.
-Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Index row = unit.first_row;
-  // The prediction includes the others' information on its holes, and its uncertainty.
-  const VectorXd by_setting = a.system.by_setting.row(row);
-  const double variance = a.estimate.noise_square + by_setting.dot(linear::product(
-                                                        a.estimate.setting_covariance, by_setting));
-  const double off = a.estimate.left_given_discrepancy(row);
-  Outlier outlier;
-  outlier.of = Observations::distances;
-  outlier.index = own.index;
-  outlier.residual_mm = off * unit.sigma();
-  outlier.distance = std::abs(off) / std::sqrt(variance);
-  return outlier;
-}
-
-Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Vector2d chains = unit.unwhitened(a.estimate.left_given_discrepancy);
+Outlier outlier_of(const Analysis& a, std::size_t u) {
+  const SystemUnit& unit = a.system.units[u];
+  const NumberedUnit& own = a.session.units[u];
+  const VectorXd& left = a.estimate.left_given_discrepancy;
+  const Vector2d error_mm = error_of_unit(a.system, left, u);
+  double variance = a.estimate.noise_square;
   Outlier outlier;
   outlier.index = own.index;
-  // Where the tool would have to be, minus its mark.
-  outlier.shift_mm = -tool_shift(a.system.places[unit.places.front().place], chains);
-  const Vector2d whitened = unit.whitening * chains;
-  outlier.distance = whitened.norm() / std::sqrt(a.estimate.noise_square);
+  if (unit.reads_chains) {
+    // Where the tool would have to be, minus its mark.
+    outlier.shift_mm = -error_mm;
+  } else {
+    const bool is_drawn =
+        &a.session.parts[own.part].observation->kind() == &observation::drawn_measures;
+    outlier.of = is_drawn ? Observations::drawing : Observations::distances;
+    outlier.residual_mm = error_mm.x();
+    // The prediction includes the others' information on its holes, and its uncertainty.
+    const VectorXd by_setting = a.system.by_setting.row(unit.first_row);
+    variance += by_setting.dot(linear::product(a.estimate.setting_covariance, by_setting));
+  }
+  outlier.distance = unit.segment(left).norm() / std::sqrt(variance);
   return outlier;
 }
 
@@ -366,13 +366,7 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
   reject_slips(a, outliers);
   std::vector<Outlier> result;
   for (std::size_t u = 0; u < outliers.size(); ++u) {
-    if (!outliers[u]) continue;
-    const SystemUnit& unit = a.system.units[u];
-    result.push_back(unit.reads_chains ? outlying_point(a, a.session.units[u], unit)
-                                       : outlying_distance(a, a.session.units[u], unit));
-    const ObservationPart& part = a.session.parts[a.session.units[u].part];
-    if (&part.observation->kind() == &observation::drawn_measures)
-      result.back().of = Observations::drawing;
+    if (outliers[u]) result.push_back(outlier_of(a, u));
   }
   sort(result, ascending([](const Outlier& own) { return std::pair(own.of, own.index); }));
   return result;

@@ -24,6 +24,8 @@ std::vector<Outlier> outliers_found(const Analysis& analysis);
 LeftOver left_over(const Analysis& analysis);
 Unexplained unexplained(const Analysis& analysis);
 ErrorBudget error_budget(const Analysis& analysis);
+/// Units that count, of those whose error is the tool's where chains were read.
+Indices units_of_error(const Analysis& analysis);
 
 /// Probability that a cause, or one of its class, acts; 0 if none was compared.
 double probability_of(const Analysis& analysis, const CauseId& cause);

@@ -47,8 +47,8 @@ Errors errors_at(const Indices& units, const Analysis& a, const ModelComparison&
     if (is_new) known->second = discrepancy_noise(a.system, marginalised, discrepancy);
     return ErrorsWith{left(own, causes, nullptr), left(marginalised, causes, known->second.get())};
   };
-  return {with(without_slips(a, marginalised), {}), with(marginalised, decision.regressors),
-          with(marginalised, a.decision.regressors)};
+  return {{with(without_slips(a, marginalised), {}), with(marginalised, decision.regressors),
+           with(marginalised, a.decision.regressors)}};
 }
 
 bool hangs_on_visits(const Analysis& a) {
@@ -69,40 +69,18 @@ ExpectedImprovement over_units(const RegressorSystem& there, const VectorXd& mov
                                const MatrixXd& design, const MatrixXd& covariance) {
   double drop = 0.0;
   double doubt = 0.0;
-  for (const SystemUnit& unit : there.units) {
-    const MatrixXd by_unknown = design.middleRows(unit.first_row, unit.rows);
-    if (unit.reads_chains) {
-      const Matrix2d by_mark =
-          unit.whitening * there.places[unit.places.front().place].state.by_mark;
-      const Matrix2d to_tool = by_mark.inverse();
-      const MatrixXd tool = to_tool * by_unknown;
-      drop += (to_tool * moved.segment<2>(unit.first_row)).squaredNorm();
-      doubt += linear::carried(tool, covariance).trace();
-    } else {
-      drop += unit.unwhitened(moved).squaredNorm();
-      doubt += std::pow(unit.sigma(), 2) *
-               by_unknown.row(0).dot(covariance * by_unknown.row(0).transpose());
-    }
+  for (std::size_t u = 0; u < there.units.size(); ++u) {
+    const SystemUnit& unit = there.units[u];
+    MatrixXd to_mm = unit.whitening.inverse();
+    if (unit.reads_chains)
+      to_mm = there.places[unit.places.front().place].state.by_mark.inverse() * to_mm;
+    drop += error_of_unit(there, moved, u).squaredNorm();
+    const MatrixXd by_unknown =
+        linear::product(to_mm, design.middleRows(unit.first_row, unit.rows));
+    doubt += linear::carried(by_unknown, covariance).trace();
   }
   const auto count = as_double(there.units.size());
   return {drop / count, drop > 0.0 ? drop / (drop + doubt) : 0.0};
-}
-
-/// Over the distances that were read, because only they have positions.
-ExpectedImprovement improvement_of_distances(const Analysis& a) {
-  const Estimate plain = estimate_of(a, {});
-  const Estimate named = estimate_of(a, a.decision.regressors);
-  const VectorXd moved =
-      left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
-  const Index settings = a.system.by_setting.cols() - a.system.nuisances;
-  const auto free = std::ssize(named.free);
-  MatrixXd design = MatrixXd::Zero(moved.size(), named.covariance.rows());
-  design.leftCols(settings) = a.system.by_setting.leftCols(settings);
-  for (Index k = 0; k < free; ++k) {
-    design.col(a.system.by_setting.cols() + k) =
-        a.system.g.col(named.regressors[named.free[as_size(k)]]);
-  }
-  return over_units(a.system, moved, design, named.covariance);
 }
 
 }  // namespace
@@ -183,26 +161,20 @@ MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& ma
 }
 
 ExpectedImprovement expected_improvement(const Analysis& a) {
-  if (!a.session.reads_chains()) return improvement_of_distances(a);
-  const ObservationSet area = hangs_on_visits(a) ? a.session : over_the_area(a);
-  const auto there = linearise(area, a.state);
+  // Distances have positions only where they were read.
+  const bool of_distances = !a.session.reads_chains();
+  const ObservationSet area = of_distances || hangs_on_visits(a) ? a.session : over_the_area(a);
+  auto there = linearise(area, a.state);
   if (!there || area.units.empty()) return {};
-  const RegressorSet& causes = a.decision.regressors;
+  // What the tape adds to its readings is no error of the machine.
+  if (of_distances) there->by_setting.rightCols(there->nuisances).setZero();
   const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
-  const Estimate named = estimate_of(a, causes);
-  const Index settings = a.system.by_setting.cols();
-  MatrixXd design(there->by_setting.rows(), named.covariance.rows());
-  design.leftCols(settings) = there->by_setting;
-  VectorXd moved = linear::product(there->by_setting, plain.setting_change - named.setting_change);
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    const Regressor& d = regressor(a, causes[k]);
-    const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d);
-    const VectorXd column = g ? *g : VectorXd(VectorXd::Zero(moved.size()));
-    moved -= column * named.coefficient(as_index(k));
-    const auto free = std::find(named.free.begin(), named.free.end(), k);
-    if (free != named.free.end()) design.col(settings + (free - named.free.begin())) = column;
-  }
-  return over_units(*there, moved, design, named.covariance);
+  const Estimate named = estimate_of(a, a.decision.regressors);
+  const ExpectedRows expected = expected_rows(a, named, *there, [&](const Regressor& own) {
+    return own.slip ? std::nullopt : signature(area, a.state, *there, own);
+  });
+  const VectorXd moved = linear::product(there->by_setting, plain.setting_change) - expected.mean;
+  return over_units(*there, moved, expected.by_unknown, named.covariance);
 }
 
 }  // namespace chaintrue::grid::diagnosis

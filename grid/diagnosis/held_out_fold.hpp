@@ -5,10 +5,11 @@
 ///
 /// \code
 ///   const Downdating downdating(analysis.system, analysis.comparison);
-///   const Fold fold = fold_without(analysis, downdating, block);   // fold.errors.extended: mm at the units of the block
+///   const Fold fold = fold_without(analysis, downdating, block);   // fold.errors[kExtended]: mm at the units of the block
 /// \endcode
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
@@ -47,12 +48,10 @@ DecidedWithout decided_without(const Analysis& analysis, const Downdating& downd
 struct ErrorsWith {
   std::vector<Vector2d> machine, and_surface;
 };
-/// One entry for every choice of causes.
-struct Errors {
-  ErrorsWith calibrated;    ///< none
-  ErrorsWith extended;      ///< those that the fold itself names
-  ErrorsWith fixed_naming;  ///< those that all units name, their sizes fitted without the fold
-};
+/// None, those that the fold itself names, and those that all units name, their sizes fitted without the
+/// fold.
+enum CausesOfFold { kCalibrated, kExtended, kFixedNaming };
+using Errors = std::array<ErrorsWith, 3>;  ///< by CausesOfFold
 
 /// Held-out units of one fold.
 struct Fold {

@@ -9,6 +9,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/parallel.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/random.hpp"
 #include "grid/statistics.hpp"
 
@@ -20,56 +21,40 @@ bool names_agree(const Fold& fold, const Analysis& a) {
                             : contains(a.decision.leaders(), fold.named.front());
 }
 
-/// Errors of the machine as delivered, and with only the sheets' placement fitted.
-struct BeforeCalibration {
-  std::vector<Vector2d> as_stated, placed;
-};
-
-BeforeCalibration before_calibration(const Analysis& a, const Indices& units) {
-  BeforeCalibration result;
+/// Sets the errors of the machine as delivered, and with only the sheets' placement fitted.
+void measure_before_calibration(const Analysis& a, const Indices& units, const Indices& number,
+                                HeldOutImprovement& improvement) {
   const ObservationSet& session = a.session;
   const auto stated = linearise(session, stated_state(session));
-  if (!stated) return result;
+  if (!stated) return;
+  const auto summary = [&](const VectorXd& rows) {
+    return summarise(errors_of_units(*stated, rows, units), number, a.options.seed);
+  };
+  const VectorXd as_stated = uncalibrated(session, *stated);
+  improvement.uncalibrated = summary(as_stated);
   constexpr auto kOfMachine = std::ssize(model::kMachineSettings);
   const auto sheet = std::ssize(session.settings) - kOfMachine;
-  bool moves = false;
-  for (std::size_t k = model::kMachineSettings.size(); k < session.settings.size(); ++k) {
-    moves =
-        moves || (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
-  }
-  const VectorXd as_stated = uncalibrated(session, *stated);
-  if (moves) {
-    const VectorXd placed =
-        left_by(marginalised_system(a).kept, stated->by_setting.middleCols(kOfMachine, sheet),
-                stated->sigma.segment(kOfMachine, sheet), as_stated);
-    result.placed = errors_of_units(*stated, placed, units);
-  }
-  result.as_stated = errors_of_units(*stated, as_stated, units);
-  return result;
-}
-
-void append(const ErrorsWith& more, ErrorsWith& all) {
-  append_all(all.machine, more.machine);
-  append_all(all.and_surface, more.and_surface);
-}
-
-/// Which errors judge the extension: it must help at points that it was not fitted to.
-struct Extension {
-  const ErrorsWith& errors;
-  bool helps = false;
-  bool naming_repeated = true;
-};
-
-Extension extension_of(const Analysis& a, const Errors& errors) {
-  const auto helps = [&](const ErrorsWith& extended) {
-    return !a.decision.listed.empty() &&
-           rms_length(extended.machine) < rms_length(errors.calibrated.machine);
+  const auto moves = [&](Index k) {
+    return session.settings[as_size(k)] != model::Setting::sheet_rotation_rad &&
+           session.knows(as_size(k));
   };
-  if (helps(errors.extended)) return {errors.extended, true, true};
+  if (none_of(numbers_below<Index>(sheet), [&](Index k) { return moves(kOfMachine + k); })) return;
+  improvement.placed =
+      summary(left_by(marginalised_system(a).kept, stated->by_setting.middleCols(kOfMachine, sheet),
+                      stated->sigma.segment(kOfMachine, sheet), as_stated));
+}
+
+/// The errors that judge the extension, which must help at points that it was not fitted to; else those
+/// of the calibration.
+const ErrorsWith& extension_of(const Analysis& a, const Errors& errors) {
   // If these points leave two names without a block, the wrong one first, that says little against
   // the name that all points give.
-  if (helps(errors.fixed_naming)) return {errors.fixed_naming, true, false};
-  return {errors.calibrated, false, true};
+  for (const CausesOfFold causes : {kExtended, kFixedNaming}) {
+    if (!a.decision.listed.empty() &&
+        rms_length(errors[causes].machine) < rms_length(errors[kCalibrated].machine))
+      return errors[causes];
+  }
+  return errors[kCalibrated];
 }
 
 /// The held-out errors of every fold.
@@ -92,9 +77,10 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
     all.agree += names_agree(fold, a) ? 1 : 0;
     append_all(all.units, fold.units);
     all.number.insert(all.number.end(), fold.units.size(), b);
-    append(fold.errors.calibrated, all.errors.calibrated);
-    append(fold.errors.extended, all.errors.extended);
-    append(fold.errors.fixed_naming, all.errors.fixed_naming);
+    for (std::size_t k = 0; k < all.errors.size(); ++k) {
+      append_all(all.errors[k].machine, fold.errors[k].machine);
+      append_all(all.errors[k].and_surface, fold.errors[k].and_surface);
+    }
   }
   return all;
 }
@@ -115,19 +101,17 @@ std::string scheme_of(const ObservationSet& session, const HeldOutBlocks& blocks
 
 HeldOut summarise(const std::vector<Vector2d>& tool_mm, const Indices& block, std::uint64_t seed) {
   HeldOut result;
-  if (tool_mm.empty()) return result;
-  std::vector<double> size;
-  for (const auto& e : tool_mm) size.push_back(e.norm());
   result.rms_mm = rms_length(tool_mm);
-  std::vector<double> sorted = size;
+  std::vector<double> sorted;
+  for (const Vector2d& e : tool_mm) sorted.push_back(e.norm());
   sort(sorted);
   const auto at = static_cast<std::size_t>(std::ceil(0.95 * as_double(sorted.size())));
-  result.percentile_95_mm = sorted[std::max<std::size_t>(at, 1) - 1];
+  result.percentile_95_mm = sorted[at - 1];
   const std::size_t blocks = 1 + *max_element(block);
   std::vector<double> sum(blocks, 0.0);
   std::vector<double> count(blocks, 0.0);
-  for (std::size_t i = 0; i < size.size(); ++i) {
-    sum[block[i]] += size[i] * size[i];
+  for (std::size_t i = 0; i < tool_mm.size(); ++i) {
+    sum[block[i]] += tool_mm[i].squaredNorm();
     count[block[i]] += 1.0;
   }
   constexpr int kDraws = 400;  // the 5th and 95th percentile to a tenth of the interval
@@ -159,18 +143,16 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   improvement.folds = static_cast<int>(blocks.units.size());
   improvement.folds_agree = agree;
   const std::uint64_t seed = a.options.seed;
-  const BeforeCalibration before = before_calibration(a, units);
-  improvement.uncalibrated = summarise(before.as_stated, number, seed);
-  if (!before.placed.empty()) improvement.placed = summarise(before.placed, number, seed);
-  improvement.calibrated = summarise(all.calibrated.machine, number, seed);
-  improvement.surface_only = summarise(all.calibrated.and_surface, number, seed);
-  const Extension extension = extension_of(a, all);
-  improvement.scheme = scheme_of(a.session, blocks, extension.naming_repeated);
-  improvement.extended = summarise(extension.errors.machine, number, seed);
-  improvement.extended_and_surface = summarise(extension.errors.and_surface, number, seed);
+  measure_before_calibration(a, units, number, improvement);
+  improvement.calibrated = summarise(all[kCalibrated].machine, number, seed);
+  improvement.surface_only = summarise(all[kCalibrated].and_surface, number, seed);
+  const ErrorsWith& extension = extension_of(a, all);
+  improvement.scheme = scheme_of(a.session, blocks, &extension != &all[kFixedNaming]);
+  improvement.extended = summarise(extension.machine, number, seed);
+  improvement.extended_and_surface = summarise(extension.and_surface, number, seed);
   improvement.noise_floor_mm =
       std::sqrt(a.estimate.noise_square) * noise_of_units_mm(a.system, units);
-  if (extension.helps) {
+  if (&extension != &all[kCalibrated]) {
     const ExpectedImprovement expected = expected_improvement(a);
     improvement.drop_mm2 = expected.drop_mm2;
     improvement.drop_share = expected.share;
@@ -180,8 +162,8 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
 
 bool naming_improves_the_map(const Analysis& a) {
   const Errors errors = hold_out_each(a, held_out_blocks(a.session)).errors;
-  return rms_length(extension_of(a, errors).errors.and_surface) <
-         rms_length(errors.calibrated.and_surface);
+  return rms_length(extension_of(a, errors).and_surface) <
+         rms_length(errors[kCalibrated].and_surface);
 }
 
 bool naming_improves_the_map(const std::optional<HeldOutImprovement>& improvement) {
@@ -196,10 +178,8 @@ VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stat
     const ObservationPart& part = session.parts[session.places[number].part];
     const observation::Place& place = part.observation->places()[number - part.first_place];
     if (!place.commanded) continue;
-    const Vector2d displacement(place.commanded->x_mm - place.mark.x_mm,
-                                place.commanded->y_mm - place.mark.y_mm);
-    e.segment<2>(unit.first_row) =
-        unit.whitening * (stated.places[number].state.by_mark * displacement);
+    e.segment<2>(unit.first_row) = unit.whitening * (stated.places[number].state.by_mark *
+                                                     difference(*place.commanded, place.mark));
   }
   return e;
 }

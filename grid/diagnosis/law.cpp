@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,33 +10,50 @@
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::diagnosis {
+namespace {
+
+struct DescribedShape {
+  std::string_view name;
+  std::string_view second;  ///< of its parameters, without the unit
+  std::size_t parameters;
+};
+
+/// Indexed by LawShape.
+constexpr DescribedShape kShapes[] = {{"linear", "", 1},           {"square", "place", 2},
+                                      {"step", "place", 2},        {"kink", "place", 2},
+                                      {"exponential", "scale", 2}, {"wave", "period", 3},
+                                      {"harmonics", "period", 5}};
+
+const DescribedShape& described_shape(LawShape shape) {
+  return kShapes[static_cast<std::size_t>(shape)];
+}
+
+}  // namespace
 
 std::optional<model::Belt> belt_of(Enters enters) {
   if (enters < Enters::tl) return std::nullopt;
   return static_cast<model::Belt>(static_cast<int>(enters) - static_cast<int>(Enters::tl));
 }
 
-std::string_view name(LawShape shape) {
-  constexpr std::string_view kNames[] = {"linear",      "square", "step",     "kink",
-                                         "exponential", "wave",   "harmonics"};
-  return kNames[static_cast<std::size_t>(shape)];
-}
+std::string_view name(LawShape shape) { return described_shape(shape).name; }
 
-bool is_periodic(LawShape shape) { return shape == LawShape::wave || shape == LawShape::harmonics; }
+bool is_periodic(LawShape shape) { return shape >= LawShape::wave; }
 
-std::size_t parameter_count(LawShape shape) {
-  constexpr std::size_t kCounts[] = {1, 2, 2, 2, 2, 3, 5};  // by LawShape
-  return kCounts[static_cast<std::size_t>(shape)];
+std::vector<std::string> parameter_names(LawShape shape, Coordinate of) {
+  const DescribedShape& own = described_shape(shape);
+  std::vector<std::string> names = {"size_mm", fmt::format("{}_{}", own.second, unit_of(of)),
+                                    "phase_rad", "second_size_mm", "second_phase_rad"};
+  names.resize(own.parameters);
+  return names;
 }
 
 double value_of(const Law& law, double v) {
-  const std::size_t count = parameter_count(law.shape);
-  if (law.parameters.size() != count) {
+  if (law.parameters.size() != described_shape(law.shape).parameters) {
     throw precondition("a law of shape {} with {} parameters", name(law.shape),
                        law.parameters.size());
   }
   const double size = law.parameters.front().value;
-  const double second = count > 1 ? law.parameters[1].value : 0.0;
+  const double second = law.parameters.size() > 1 ? law.parameters[1].value : 0.0;
   const double span = law.to - law.from;
   const double middle = 0.5 * (law.from + law.to);
   switch (law.shape) {

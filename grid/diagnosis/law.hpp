@@ -42,8 +42,8 @@ enum class LawShape { linear, square, step, kink, exponential, wave, harmonics }
 std::string_view name(LawShape shape);
 /// Whether it has a period.
 bool is_periodic(LawShape shape);
-/// How many parameters a law of this shape has.
-std::size_t parameter_count(LawShape shape);
+/// The names of the parameters of a law of this shape in a variable, in the order of the table.
+std::vector<std::string> parameter_names(LawShape shape, Coordinate of);
 
 struct ParameterEstimate {
   std::string parameter;

@@ -24,28 +24,52 @@ constexpr int kScales = 9;
 constexpr double kShortestScale = 0.03;  // of the span
 constexpr double kScaleFactor = 1.45;
 
+/// Whether something rotates there, or consists of equal parts.
+bool may_repeat(const LawTerm& term) {
+  if (term.of == Coordinate::x || term.of == Coordinate::y) return true;
+  if (unit_of(term.of) != "mm") return false;
+  if (const auto belt = belt_of(term.of)) return belt_of(term.enters) == belt;
+  const auto chain = chain_of(term.of);
+  return chain && term.enters == (*chain == model::Side::left ? Enters::left : Enters::right);
+}
+
+/// The shortest period: shorter ones are implausible, or no marks show them.
+double shortest_wave(const LawCurve& curve) {
+  if (curve.of == Coordinate::x || curve.of == Coordinate::y) return 100.0;
+  if (curve.of == Coordinate::across) return 400.0;
+  const bool of_length = (chain_of(curve.of) || belt_of(curve.of)) && unit_of(curve.of) == "mm";
+  if (!of_length) return curve.span() / 6.0;
+  return may_repeat(curve) ? 25.0 : 200.0;
+}
+
+/// Equally likely places.
+StepPlaces evenly(std::vector<double> at) {
+  std::vector<double> mass(at.size(), 1.0 / as_double(at.size()));
+  return {std::move(at), std::move(mass)};
+}
+
 class CurveList {
  public:
   explicit CurveList(const RegressorSystem& system) : system_(system) {}
 
   void add_all(Coordinate of, double direction_rad, double weight) {
-    values_ = values_of_variable(system_, of, direction_rad);
+    values_.clear();
+    for (const SystemPlace& place : system_.places) {
+      if (of != Coordinate::visit || place.ordered)
+        values_.push_back(value_at(place, of, direction_rad));
+    }
     constexpr std::size_t kFewest = 8;  // fewer places show no shape
     if (values_.size() < kFewest) return;
-    const auto [low, high] = minmax_element(values_);
-    if (!(*high - *low > 1e-6)) return;
+    sort(values_);
+    if (!(values_.back() - values_.front() > 1e-6)) return;
     start_ = {};
     start_.of = of;
     start_.direction_rad = direction_rad;
-    start_.from = *low;
-    start_.to = *high;
-    sort(values_);
-    double most = 0.0;
-    for (const LawEntrance& entrance : law_entrances(system_, of))
-      most = std::max(most, start_.span() / shortest_wave(of, entrance.enters, start_.span()));
-    most_resolvable_waves_ = most_resolvable_waves(most);
+    start_.from = values_.front();
+    start_.to = values_.back();
     for (const LawEntrance& entrance : law_entrances(system_, of)) {
       start_.enters = entrance.enters;
+      most_waves_ = most_resolvable_waves(start_.span() / shortest_wave(start_));
       add_shapes(weight * entrance.weight);
     }
   }
@@ -57,57 +81,66 @@ class CurveList {
   void add_shapes(double weight) {
     const bool of_border = start_.of == Coordinate::border;
     const bool of_visit = start_.of == Coordinate::visit;
+    const bool outwards = start_.enters == Enters::outwards;
     // Drift and a moving zero are in the catalogue.
     if (!of_border && !of_visit) {
-      add(LawShape::linear, 0, weight, {0.0});
-      add(LawShape::square, 0, 0.5 * weight, {0.0});
+      add(LawShape::linear, 0, weight, evenly({0.0}));
+      add(LawShape::square, 0, 0.5 * weight, evenly({0.0}));
     }
-    if (!of_visit && start_.enters != Enters::outwards) add_steps(0.5 * weight);
+    if (!of_visit && !outwards)
+      add(LawShape::step, 0, 0.5 * weight, step_places(values_, start_.from, start_.to));
     for (const int towards : {-1, 1}) {
       // A drop at the border starts there.
       if (of_border && towards > 0) continue;
       const double own = of_border ? 0.5 * weight : 0.25 * weight;
-      if (start_.enters != Enters::outwards) add(LawShape::kink, towards, own, kink_places());
+      if (!outwards) add(LawShape::kink, towards, own, kink_places());
       add(LawShape::exponential, towards, own, scales());
     }
-    if (!of_border) add_waves(LawShape::wave, kWaveStep, 0.25 * weight);
+    if (!of_border) add(LawShape::wave, 0, 0.25 * weight, waves(most_waves_, kWaveStep));
     // Two parameters more than a wave.
-    if (may_repeat(start_.of, start_.enters))
-      add_waves(LawShape::harmonics, kHarmonicsStep, 0.0625 * weight);
+    if (may_repeat(start_))
+      add(LawShape::harmonics, 0, 0.0625 * weight, waves(most_waves_ / 2.0, kHarmonicsStep));
   }
 
-  void add(LawShape shape, int towards, double weight, std::vector<double> grid) {
-    LawCurve curve = start_;
+  void add(LawShape shape, int towards, double weight, StepPlaces grid) {
+    if (grid.at.empty()) return;
+    LawCurve& curve = curves_.emplace_back(start_);
     curve.shape = shape;
     curve.towards = towards;
-    curve.weight = weight;
-    curve.mass.assign(grid.size(), 1.0 / as_double(grid.size()));
-    curve.grid = std::move(grid);
-    curves_.push_back(std::move(curve));
+    curve.share = weight;
+    curve.grid = std::move(grid.at);
+    curve.mass = std::move(grid.mass);
   }
 
-  void add_steps(double weight) {
-    StepPlaces places = step_places(values_, start_.from, start_.to);
-    add(LawShape::step, 0, weight, std::move(places.at));
-    curves_.back().mass = std::move(places.mass);
-  }
-
-  std::vector<double> kink_places() const {
+  StepPlaces kink_places() const {
     std::vector<double> grid;
     for (int k = 0; k < kKinkPlaces; ++k)
       grid.push_back(start_.from + (k + 0.5) / kKinkPlaces * start_.span());
-    return grid;
+    return evenly(std::move(grid));
   }
 
-  std::vector<double> scales() const {
+  StepPlaces scales() const {
     std::vector<double> grid;
     for (int k = 0; k < kScales; ++k)
       grid.push_back(kShortestScale * std::pow(kScaleFactor, k) * start_.span());
+    return evenly(std::move(grid));
+  }
+
+  static StepPlaces waves(double most, double step) {
+    StepPlaces grid;
+    double sum = 0.0;
+    for (double waves = kFewestWaves; waves <= most; waves += step) {
+      grid.at.push_back(waves);
+      grid.mass.push_back(1.0 / waves);
+      sum += 1.0 / waves;
+    }
+    for (double& own : grid.mass) own /= sum;
     return grid;
   }
 
   /// Waves over the span beyond which evenly spaced values mistake one for a longer one: half of the
   /// first number of waves that all of them see nearly in the same phase (the sampling theorem).
+  /// No more than `most`.
   double most_resolvable_waves(double most) const {
     // 0.97: a strength of 12 separates two such waves by less than three sigmas, 12 sqrt(1 -
     // 0.97^2).
@@ -132,29 +165,9 @@ class CurveList {
     return most;
   }
 
-  void add_waves(LawShape shape, double step, double weight) {
-    const double harmonic = shape == LawShape::harmonics ? 2.0 : 1.0;
-    const double most =
-        std::min(start_.span() / shortest_wave(start_.of, start_.enters, start_.span()),
-                 most_resolvable_waves_) /
-        harmonic;
-    std::vector<double> grid;
-    std::vector<double> mass;
-    double sum = 0.0;
-    for (double waves = kFewestWaves; waves <= most; waves += step) {
-      grid.push_back(waves);
-      mass.push_back(1.0 / waves);
-      sum += 1.0 / waves;
-    }
-    if (grid.empty()) return;
-    for (double& own : mass) own /= sum;
-    add(shape, 0, weight, std::move(grid));
-    curves_.back().mass = std::move(mass);
-  }
-
   const RegressorSystem& system_;
   std::vector<double> values_;
-  double most_resolvable_waves_ = 0.0;
+  double most_waves_ = 0.0;
   LawCurve start_;
   std::vector<LawCurve> curves_;
 };
@@ -183,33 +196,23 @@ double basis(const LawCurve& curve, double at, Index column, double v) {
 }
 
 std::vector<LawEntrance> entrances_of_chains(Coordinate of) {
+  using enum Enters;
   if (const auto chain = chain_of(of)) {
     const bool is_left = *chain == model::Side::left;
-    return {{Enters::left, is_left ? 0.55 : 0.15},
-            {Enters::right, is_left ? 0.15 : 0.55},
-            {Enters::x, 0.15},
-            {Enters::y, 0.15}};
+    return {{left, is_left ? 0.55 : 0.15}, {right, is_left ? 0.15 : 0.55}, {x, 0.15}, {y, 0.15}};
   }
   switch (of) {
     case Coordinate::x:
     case Coordinate::y:
-      return {{Enters::left, 0.25}, {Enters::right, 0.25}, {Enters::x, 0.25}, {Enters::y, 0.25}};
+      return {{left, 0.25}, {right, 0.25}, {x, 0.25}, {y, 0.25}};
     case Coordinate::across:
-      return {{Enters::left, 0.2},
-              {Enters::right, 0.2},
-              {Enters::x, 0.2},
-              {Enters::y, 0.2},
-              {Enters::along, 0.2}};
+      return {{left, 0.2}, {right, 0.2}, {x, 0.2}, {y, 0.2}, {along, 0.2}};
     case Coordinate::border:
-      return {{Enters::outwards, 0.4},
-              {Enters::left, 0.15},
-              {Enters::right, 0.15},
-              {Enters::x, 0.15},
-              {Enters::y, 0.15}};
+      return {{outwards, 0.4}, {left, 0.15}, {right, 0.15}, {x, 0.15}, {y, 0.15}};
     default:
       break;
   }
-  return {{Enters::left, 0.35}, {Enters::right, 0.35}, {Enters::equal, 0.3}};
+  return {{left, 0.35}, {right, 0.35}, {equal, 0.3}};
 }
 
 std::vector<LawEntrance> entrances_of_belts(Coordinate of) {
@@ -220,63 +223,44 @@ std::vector<LawEntrance> entrances_of_belts(Coordinate of) {
   return entrances;
 }
 
-/// Distance from the border that a component crosses.
-double from_border(const SystemPlace& place, bool along_x) {
-  return along_x ? 0.5 * place.bed.width_mm - std::abs(place.mark.x_mm)
-                 : 0.5 * place.bed.height_mm - std::abs(place.mark.y_mm);
-}
-
 /// The effect of one millimetre of a law on the chains at a place, with the law's argument.
 std::vector<std::pair<double, Vector2d>> chains_at(const SystemPlace& place, const LawTerm& term) {
   if (term.of == Coordinate::visit && !place.ordered) return {};
   const Matrix2d& by_mark = place.state.by_mark;
-  const auto at = [&](const Vector2d& chains_mm) {
-    return std::vector{std::pair(value_at(place, term.of, term.direction_rad), chains_mm)};
-  };
-  switch (term.enters) {
-    case Enters::left:
-      return at({1.0, 0.0});
-    case Enters::right:
-      return at({0.0, 1.0});
-    case Enters::equal:
-      return at({1.0, 1.0});
-    case Enters::opposite:
-      return at({1.0, -1.0});
-    case Enters::x:
-      return at(by_mark.col(0));
-    case Enters::y:
-      return at(by_mark.col(1));
-    case Enters::along:
-      return at(by_mark * Vector2d(std::cos(term.direction_rad), std::sin(term.direction_rad)));
-    case Enters::outwards:
-      return {{from_border(place, true), by_mark.col(0) * std::copysign(1.0, place.mark.x_mm)},
-              {from_border(place, false), by_mark.col(1) * std::copysign(1.0, place.mark.y_mm)}};
-    default:
-      break;
+  if (term.enters == Enters::outwards) {
+    const auto& [x_mm, y_mm] = place.mark;
+    return {
+        {0.5 * place.bed.width_mm - std::abs(x_mm), by_mark.col(0) * std::copysign(1.0, x_mm)},
+        {0.5 * place.bed.height_mm - std::abs(y_mm), by_mark.col(1) * std::copysign(1.0, y_mm)}};
   }
-  return {};
+  const Vector2d along(std::cos(term.direction_rad), std::sin(term.direction_rad));
+  const Vector2d chains_mm = term.enters == Enters::left    ? Vector2d(1.0, 0.0)
+                             : term.enters == Enters::right ? Vector2d(0.0, 1.0)
+                             : term.enters == Enters::equal ? Vector2d(1.0, 1.0)
+                             : term.enters == Enters::x     ? Vector2d(by_mark.col(0))
+                             : term.enters == Enters::y     ? Vector2d(by_mark.col(1))
+                                                            : Vector2d(by_mark * along);
+  return {{value_at(place, term.of, term.direction_rad), chains_mm}};
 }
 
 }  // namespace
 
 StepPlaces step_places(const std::vector<double>& values, double from, double to) {
+  const auto place = [&](int k) { return from + (k + 0.5) / kStepPlaces * (to - from); };
   StepPlaces places;
-  std::ptrdiff_t last = 0;
-  std::vector<double> same;
-  const auto close = [&] {
-    if (same.empty()) return;
-    places.at.push_back(0.5 * (same.front() + same.back()));
-    places.mass.push_back(as_double(same.size()) / kStepPlaces);
-    same.clear();
-  };
+  std::ptrdiff_t last = -1;
+  int first = 0;  // of those between the same two values
   for (int k = 0; k < kStepPlaces; ++k) {
-    const double at = from + (k + 0.5) / kStepPlaces * (to - from);
-    const auto below = std::lower_bound(values.begin(), values.end(), at) - values.begin();
-    if (below != last) close();
+    const auto below = std::lower_bound(values.begin(), values.end(), place(k)) - values.begin();
+    if (below != last) {
+      places.at.emplace_back();
+      places.mass.emplace_back();
+      first = k;
+    }
+    places.at.back() = 0.5 * (place(first) + place(k));
+    places.mass.back() = (k - first + 1.0) / kStepPlaces;
     last = below;
-    same.push_back(at);
   }
-  close();
   return places;
 }
 
@@ -310,8 +294,8 @@ std::vector<LawCurve> law_curves(const RegressorSystem& system) {
 
 void share_out(std::vector<LawCurve>& curves) {
   double sum = 0.0;
-  for (const LawCurve& curve : curves) sum += curve.weight;
-  for (LawCurve& curve : curves) curve.share = curve.weight / sum;
+  for (const LawCurve& curve : curves) sum += curve.share;
+  for (LawCurve& curve : curves) curve.share /= sum;
 }
 
 namespace {
@@ -340,52 +324,17 @@ MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
 }
 
 std::vector<Coordinate> law_variables(const RegressorSystem& system) {
+  using enum Coordinate;
   if (system.is_of_lengths()) {
-    return {Coordinate::x,         Coordinate::y,         Coordinate::length_tl,
-            Coordinate::length_tr, Coordinate::length_bl, Coordinate::length_br,
-            Coordinate::angle_tl,  Coordinate::angle_tr,  Coordinate::angle_bl,
-            Coordinate::angle_br,  Coordinate::visit};
+    return {x,        y,        length_tl, length_tr, length_bl, length_br,
+            angle_tl, angle_tr, angle_bl,  angle_br,  visit};
   }
-  return {Coordinate::x,
-          Coordinate::y,
-          Coordinate::border,
-          Coordinate::length_left,
-          Coordinate::length_right,
-          Coordinate::angle_left,
-          Coordinate::angle_right,
-          Coordinate::tension_left,
-          Coordinate::tension_right,
-          Coordinate::visit};
+  return {x,          y,           border,       length_left,   length_right,
+          angle_left, angle_right, tension_left, tension_right, visit};
 }
 
 std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of) {
   return system.is_of_lengths() ? entrances_of_belts(of) : entrances_of_chains(of);
-}
-
-double shortest_wave(Coordinate of, Enters enters, double span) {
-  if (of == Coordinate::x || of == Coordinate::y) return 100.0;
-  if (of == Coordinate::across) return 400.0;
-  const bool of_length = (chain_of(of) || belt_of(of)) && unit_of(of) == "mm";
-  if (!of_length) return span / 6.0;
-  return may_repeat(of, enters) ? 25.0 : 200.0;
-}
-
-bool may_repeat(Coordinate of, Enters enters) {
-  if (of == Coordinate::x || of == Coordinate::y) return true;
-  if (unit_of(of) != "mm") return false;
-  if (const auto belt = belt_of(of)) return belt_of(enters) == belt;
-  const auto chain = chain_of(of);
-  return chain && enters == (*chain == model::Side::left ? Enters::left : Enters::right);
-}
-
-std::vector<double> values_of_variable(const RegressorSystem& system, Coordinate of,
-                                       double direction_rad) {
-  std::vector<double> values;
-  for (const SystemPlace& place : system.places) {
-    if (of != Coordinate::visit || place.ordered)
-      values.push_back(value_at(place, of, direction_rad));
-  }
-  return values;
 }
 
 std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,

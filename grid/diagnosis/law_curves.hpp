@@ -53,15 +53,6 @@ struct LawEntrance {
 /// A law in a chain's or belt's variable mostly acts on that chain or belt.
 std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of);
 
-/// The shortest period: shorter ones are implausible, or no marks show them.
-double shortest_wave(Coordinate of, Enters enters, double span);
-/// Whether something rotates there, or consists of equal parts.
-bool may_repeat(Coordinate of, Enters enters);
-
-/// Values of a law's variable at all places of a system that have one.
-std::vector<double> values_of_variable(const RegressorSystem& system, Coordinate of,
-                                       double direction_rad);
-
 /// A value of a law's variable, and what one millimetre of the law adds to the whitened rows of a
 /// unit there.
 struct LawRows {
@@ -81,7 +72,6 @@ struct LawCurve : LawTerm {
   /// is no choice.
   std::vector<double> grid;
   std::vector<double> mass;  ///< prior of each, of sum 1
-  double weight = 0.0;       ///< relative to those of other laws
   double share = 0.0;        ///< among all laws, of sum 1
   double span() const { return to - from; }
   double middle() const { return 0.5 * (from + to); }
@@ -97,7 +87,7 @@ StepPlaces step_places(const std::vector<double>& values, double from, double to
 
 /// For this system's places.
 std::vector<LawCurve> law_curves(const RegressorSystem& system);
-/// Shares in proportion to the weights.
+/// Divides the shares by their sum.
 void share_out(std::vector<LawCurve>& curves);
 
 /// Number of linear amplitudes: two for a square and a wave, four for a wave with its second

@@ -21,25 +21,21 @@ using model::effects::EffectSide;
 using model::effects::ParameterRole;
 
 std::string variable_of(const Law& law, const model::Bed& bed) {
-  if (chain_of(law.of)) {
-    const std::string_view unit = unit_of(law.of);
-    return unit == "mm" ? "L0" : unit == "rad" ? "phi" : "T";
-  }
-  switch (law.of) {
-    case Coordinate::x:
-      return "x";
-    case Coordinate::y:
-      return "y";
-    case Coordinate::across: {
-      const double direction = law.direction_deg * std::numbers::pi / 180.0;
-      return fmt::format("({:.6f} * x + {:.6f} * y)", std::cos(direction), std::sin(direction));
-    }
-    case Coordinate::border:
-      return fmt::format("min({} - abs(x), {} - abs(y))", 0.5 * bed.width_mm, 0.5 * bed.height_mm);
-    default:
-      break;
-  }
-  return "n";
+  constexpr std::string_view kVariables[] = {"x",
+                                             "y",
+                                             "({cos:.6f} * x + {sin:.6f} * y)",
+                                             "min({right} - abs(x), {top} - abs(y))",
+                                             "L0",
+                                             "L0",
+                                             "phi",
+                                             "phi",
+                                             "T",
+                                             "T",
+                                             "n"};  // by Coordinate, of chains
+  const double direction = law.direction_deg * std::numbers::pi / 180.0;
+  return fmt::format(fmt::runtime(kVariables[static_cast<std::size_t>(law.of)]),
+                     fmt::arg("cos", std::cos(direction)), fmt::arg("sin", std::sin(direction)),
+                     fmt::arg("right", 0.5 * bed.width_mm), fmt::arg("top", 0.5 * bed.height_mm));
 }
 
 /// The chain whose value is the law's variable.
@@ -82,7 +78,7 @@ DeclaredParameter place_of(const Law& law) {
             .upper = 6.3,
             .prior_sigma = std::numbers::pi};
   }
-  return {.name = fmt::format("place_{}", unit_of(law.of)),
+  return {.name = law.parameters[1].parameter,
           .symbol = "p",
           .meaning = "where it sets in",
           .role = ParameterRole::place,
@@ -155,8 +151,7 @@ std::string refusal_of(const Law& law) {
     return fmt::format("a chain's formula uses only that chain, but this law {}",
                        moves ? "moves the tool" : "acts elsewhere");
   }
-  if (law.enters == Enters::outwards || law.enters == Enters::mixed ||
-      law.enters == Enters::opposite) {
+  if (law.enters == Enters::outwards) {
     return "a law that moves the tool outwards moves it along x by one distance and along y by "
            "another, which no formula of a chain can express";
   }

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
 
 #include "grid/diagnosis/law_system.hpp"
 
@@ -28,15 +26,16 @@ std::vector<RegressorSet> leading_sets(const Analysis& a) {
   for (const CandidateModel& model : a.comparison.models)
     weight[model.regressors] += a.comparison.probability(model);
   std::vector<std::pair<double, RegressorSet>> order;
-  for (const auto& [set, own] : weight) order.emplace_back(-own, set);
+  constexpr double kHardly = 0.01;
+  for (const auto& [set, own] : weight) {
+    if (own >= kHardly) order.emplace_back(-own, set);
+  }
   sort(order);
   std::vector<RegressorSet> sets = {{}};
   const auto add = [&](const RegressorSet& set) {
     if (sets.size() < kMostSets && !contains(sets, set)) sets.push_back(set);
   };
-  constexpr double kHardly = 0.01;
   for (const auto& [minus, set] : order) {
-    if (-minus < kHardly) break;
     add(set);
     for (std::size_t k = 0; set.size() > 1 && k < set.size(); ++k) {
       RegressorSet fewer = set;
@@ -47,69 +46,49 @@ std::vector<RegressorSet> leading_sets(const Analysis& a) {
   return sets;
 }
 
-/// A point of a curve, and its weight without its prior in the first contexts.
-struct WeighedPoint {
-  double at = 0.0;
-  double weight = kMinusInfinity;
-};
+/// Those with the largest weights, best first: at most `most`, within a distance of the best.
+template <class What>
+std::vector<What> leading(const std::vector<What>& all, const VectorXd& log_weights,
+                          std::size_t most, double within) {
+  const auto weight = [&](std::size_t k) { return log_weights(as_index(k)); };
+  Indices order = numbers_below(all.size());
+  std::erase_if(order, [&](std::size_t k) { return !std::isfinite(weight(k)); });
+  stable_sort(order, descending(weight));
+  std::vector<What> result;
+  for (const std::size_t k : order) {
+    if (result.size() == most || weight(k) < weight(order.front()) - within) break;
+    result.push_back(all[k]);
+  }
+  return result;
+}
+
+double log_sum_of(const VectorXd& terms) { return log_sum({terms.begin(), terms.end()}); }
 
 class LawSearch {
  public:
   LawSearch(const Analysis& a, std::size_t number, std::vector<LawCurve> curves)
-      : sets_(leading_sets(a)), system_(a, number, sets_), curves_(std::move(curves)) {
-    look_without_a_law();
-  }
+      : sets_(leading_sets(a)),
+        system_(a, number, sets_),
+        number_(number),
+        curves_(std::make_shared<std::vector<LawCurve>>(std::move(curves))) {}
 
-  LawEvidence run(std::size_t number) && {
-    look_at_all();
-    for (const std::size_t curve : leading_) refine(curve);
-    LawEvidence result;
-    result.marginalised = number;
-    if (!without_.empty()) {
-      result.without_set = without_.front().set;
-      result.without_discrepancy = without_.front().discrepancy;
-    }
-    result.log_without = log_without_ + std::log1p(-kLawPrior);
-    result.laws = look_again();
-    result.curves = std::move(curves_);
-    result.sets = std::move(sets_);
-    return result;
+  LawEvidence run() {
+    const VectorXd without = system_.log_weights(contexts_, {ColumnSet{}}).col(0);
+    without_ = leading(contexts_, without, kMostContexts / 2, kContextsWithin);
+    choose_first(leading(contexts_, without, contexts_.size(), kInfinity));
+    return {log_sum_of(without) + std::log1p(-kLawPrior), look_again(look_at_all())};
   }
 
  private:
-  void look_without_a_law() {
-    std::vector<std::pair<double, LawContext>> all;
-    std::vector<double> weights;
-    for (int discrepancy = -1; discrepancy < system_.family().count(); ++discrepancy) {
-      const NormalEquations equations = system_.equations(discrepancy);
-      for (std::size_t set = 0; set < system_.sets(); ++set) {
-        const double own = system_.log_weight(equations, {set, discrepancy}, {});
-        if (!std::isfinite(own)) continue;
-        weights.push_back(own);
-        all.emplace_back(-own, LawContext{set, discrepancy});
-      }
-    }
-    log_without_ = log_sum(weights);
-    sort(all);
-    for (const auto& [minus, context] : all) {
-      if (without_.size() == kMostContexts / 2 || minus > all.front().first + kContextsWithin)
-        break;
-      without_.push_back(context);
-    }
-    choose_first(all);
-  }
-
   /// Nothing, the leading sets, and the best two kernels.
-  void choose_first(const std::vector<std::pair<double, LawContext>>& all) {
-    first_ = {{0, -1}};
+  void choose_first(const std::vector<LawContext>& all) {
     Indices kernels;
-    for (const auto& [minus, context] : all) {
+    for (const LawContext& context : all) {
       if (first_.size() == kFirstContexts) break;
       if (context == first_.front()) continue;
       if (context.discrepancy >= 0) {
         const std::size_t kernel = system_.family().kernel_of(context.discrepancy);
-        const bool known = contains(kernels, kernel);
-        if (kernels.size() == 2 || known) continue;
+        if (kernels.size() == 2 || contains(kernels, kernel)) continue;
         kernels.push_back(kernel);
         system_.prepare(context.discrepancy);
       }
@@ -117,201 +96,120 @@ class LawSearch {
     }
   }
 
-  /// Weights of points in the first contexts, without their priors.
-  std::vector<double> weights_of(const std::vector<LawPoint>& points) {
-    std::vector<double> weights;
+  /// Weights in the first contexts.
+  void weigh(std::vector<LawPoint>& points) {
     for (auto from = points.begin(); from != points.end();) {
       auto to = from;
       for (Index count = 0; to != points.end(); ++to) {
         count += columns_of(to->curve->shape);
         if (count > kChunk) break;
       }
-      const std::vector<ColumnSet> of_point = system_.take({from, to});
-      std::vector<std::vector<double>> terms(of_point.size());
-      for (const LawContext& context : first_) {
-        const NormalEquations equations = system_.equations(context.discrepancy);
-        for (std::size_t k = 0; k < of_point.size(); ++k) {
-          if (system_.shows(of_point[k]))
-            terms[k].push_back(system_.log_weight(equations, context, of_point[k]));
-        }
-      }
-      for (const auto& own : terms) weights.push_back(log_sum(own));
-      from = to;
+      const MatrixXd weights = system_.log_weights(first_, system_.take({from, to}));
+      for (const auto& own : weights.colwise()) (from++)->log_weight = log_sum_of(own);
     }
-    return weights;
-  }
-
-  void look_at_all() {
-    std::vector<LawPoint> all;
-    for (const LawCurve& curve : curves_) {
-      for (const double at : curve.grid) all.push_back({&curve, at});
-    }
-    const std::vector<double> weights = weights_of(all);
-    auto weight = weights.begin();
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t c = 0; c < curves_.size(); ++c) {
-      const LawCurve& curve = curves_[c];
-      points_.emplace_back();
-      for (const double at : curve.grid) points_[c].push_back({at, *weight++});
-      std::vector<double> terms;
-      for (std::size_t k = 0; k < points_[c].size(); ++k)
-        terms.push_back(points_[c][k].weight + std::log(curve.mass[k]));
-      const double own = log_sum(terms) + std::log(kLawPrior * curve.share);
-      if (std::isfinite(own)) order.emplace_back(-own, c);
-    }
-    sort(order);
-    for (const auto& [minus, c] : order) {
-      if (leading_.size() == kMostCurves || minus > order.front().first + kLawsWithin) break;
-      leading_.push_back(c);
-    }
-  }
-
-  /// Points between those of the grid about the heaviest, twice.
-  void refine(std::size_t c) {
-    LawCurve& curve = curves_[c];
-    if (!is_continuous(curve.shape)) return;
-    std::vector<WeighedPoint>& points = points_[c];
-    for (int pass = 0; pass < 2; ++pass) {
-      const auto best = max_element(points, ascending(&WeighedPoint::weight));
-      std::vector<LawPoint> finer;
-      const auto between = [&](double from, double to) {
-        for (int k = 1; k < kFiner; ++k) finer.push_back({&curve, from + (to - from) * k / kFiner});
-      };
-      // The second pass uses the neighbours from the first.
-      const auto at = best - points.begin();
-      const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
-      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(at - 1 - pass, 0);
-           k < std::min(at + 1 + pass, last); ++k) {
-        between(points[as_size(k)].at, points[as_size(k) + 1].at);
-      }
-      if (finer.empty()) return;
-      const std::vector<double> weights = weights_of(finer);
-      for (std::size_t k = 0; k < finer.size(); ++k) points.push_back({finer[k].at, weights[k]});
-      sort(points, ascending(&WeighedPoint::at));
-    }
-    curve.grid.clear();
-    for (const WeighedPoint& point : points) curve.grid.push_back(point.at);
-    curve.mass = trapezoids(curve);
-  }
-
-  /// Prior of each grid point; the sum is one.
-  static std::vector<double> trapezoids(const LawCurve& curve) {
-    const std::vector<double>& at = curve.grid;
-    std::vector<double> mass(at.size(), 0.0);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      const double before = k > 0 ? at[k] - at[k - 1] : 0.0;
-      const double behind = k + 1 < at.size() ? at[k + 1] - at[k] : 0.0;
-      mass[k] = density_at(curve, at[k]) * (before + behind);
-      sum += mass[k];
-    }
-    for (double& own : mass) own /= sum;
-    return mass;
   }
 
   /// The points of leading curves with a share of the weight.
-  struct Chosen {
-    std::size_t curve = 0;
-    std::size_t point = 0;
-    ColumnSet columns;
-    double log_prior = 0.0;
-    double first_weight = 0.0;
-  };
-
-  std::vector<Chosen> choose() {
-    std::vector<Chosen> chosen;
-    for (const std::size_t c : leading_) {
-      const LawCurve& curve = curves_[c];
-      for (std::size_t k = 0; k < points_[c].size(); ++k) {
-        const double prior = std::log(kLawPrior * curve.share * curve.mass[k]);
-        if (std::isfinite(points_[c][k].weight))
-          chosen.push_back({c, k, {}, prior, prior + points_[c][k].weight});
-      }
+  std::vector<LawPoint> look_at_all() {
+    std::vector<LawPoint> all;
+    for (const LawCurve& curve : *curves_) {
+      for (std::size_t k = 0; k < curve.grid.size(); ++k)
+        all.push_back({&curve, curve.grid[k], curve.mass[k]});
     }
-    stable_sort(chosen, descending(&Chosen::first_weight));
+    weigh(all);
+    std::vector<std::vector<LawPoint>> of_curve;
+    VectorXd weights = VectorXd::Constant(std::ssize(*curves_), kMinusInfinity);
+    for (const LawPoint& point : all) {
+      if (of_curve.empty() || of_curve.back().front().curve != point.curve) of_curve.emplace_back();
+      double& sum = weights(std::ssize(of_curve) - 1);
+      of_curve.back().push_back(point);
+      sum = log_sum(sum, point.log_weight + point.log_prior());
+    }
+    std::vector<LawPoint> chosen;
+    for (std::vector<LawPoint>& own : leading(of_curve, weights, kMostCurves, kLawsWithin)) {
+      refine(own);
+      append_all(chosen, own);
+    }
     constexpr std::size_t kMostPoints = 240;
-    std::size_t count = 0;
-    while (count < std::min(chosen.size(), kMostPoints) &&
-           chosen[count].first_weight > chosen.front().first_weight - kLawsWithin) {
-      ++count;
-    }
-    chosen.resize(count);
-    return chosen;
+    VectorXd of_chosen(std::ssize(chosen));
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      of_chosen(as_index(k)) = chosen[k].log_prior() + chosen[k].log_weight;
+    return leading(chosen, of_chosen, kMostPoints, kLawsWithin);
   }
 
-  void take(std::vector<Chosen>& chosen) {
-    std::vector<LawPoint> points;
-    for (const Chosen& own : chosen)
-      points.push_back({&curves_[own.curve], points_[own.curve][own.point].at});
-    std::vector<ColumnSet> columns = system_.take(points);
-    for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k].columns = std::move(columns[k]);
+  /// Points between those of the grid about the heaviest, twice; their priors are trapezoids.
+  void refine(std::vector<LawPoint>& points) {
+    const LawCurve& curve = *points.front().curve;
+    if (!is_continuous(curve.shape) || points.size() < 2) return;
+    for (int pass = 0; pass < 2; ++pass) {
+      // The second pass uses the neighbours from the first.
+      const auto best = max_element(points, ascending(&LawPoint::log_weight)) - points.begin();
+      std::vector<LawPoint> finer;
+      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(best - 1 - pass, 0);
+           k < std::min(best + 1 + pass, std::ssize(points) - 1); ++k) {
+        const double from = points[as_size(k)].at;
+        const double to = points[as_size(k) + 1].at;
+        for (int step = 1; step < kFiner; ++step)
+          finer.push_back({&curve, from + (to - from) * step / kFiner});
+      }
+      weigh(finer);
+      append_all(points, finer);
+      sort(points, ascending(&LawPoint::at));
+    }
+    double sum = 0.0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      LawPoint& own = points[k];
+      const double before = k > 0 ? own.at - points[k - 1].at : 0.0;
+      const double behind = k + 1 < points.size() ? points[k + 1].at - own.at : 0.0;
+      own.mass = density_at(curve, own.at) * (before + behind);
+      sum += own.mass;
+    }
+    for (LawPoint& own : points) own.mass /= sum;
   }
 
   /// Contexts with a share of the weight given one of the best laws, or without a law.
-  std::vector<LawContext> contexts_with(const std::vector<Chosen>& chosen) {
-    std::vector<Chosen> best;
-    for (const Chosen& own : chosen) {
+  std::vector<LawContext> contexts_with(const std::vector<LawPoint>& chosen) {
+    std::vector<LawPoint> best;
+    for (const LawPoint& own : chosen) {
       const bool known =
-          any_of(best, [&](const Chosen& other) { return other.curve == own.curve; });
+          any_of(best, [&](const LawPoint& other) { return other.curve == own.curve; });
       if (!known && best.size() < 3) best.push_back(own);
     }
-    take(best);
-    std::map<LawContext, double> weight;
-    for (int discrepancy = -1; discrepancy < system_.family().count(); ++discrepancy) {
-      const NormalEquations equations = system_.equations(discrepancy);
-      for (std::size_t set = 0; set < system_.sets(); ++set) {
-        for (const Chosen& own : best) {
-          const double w =
-              system_.log_weight(equations, {set, discrepancy}, own.columns) + own.log_prior;
-          auto& known = weight.try_emplace({set, discrepancy}, w).first->second;
-          known = std::max(known, w);
-        }
-      }
-    }
-    std::vector<std::pair<double, LawContext>> order;
-    for (const auto& [context, w] : weight) order.emplace_back(-w, context);
-    sort(order);
-    std::vector<LawContext> contexts;
-    for (const auto& [minus, context] : order) {
-      if (contexts.size() == kMostContexts || minus > order.front().first + kContextsWithin) break;
-      contexts.push_back(context);
-    }
-    for (const LawContext& context : without_) {
-      if (!contains(contexts, context)) contexts.push_back(context);
-    }
-    sort(contexts,
-         ascending([](const LawContext& own) { return std::pair(own.discrepancy, own.set); }));
+    MatrixXd weights = system_.log_weights(contexts_, system_.take(best));
+    for (std::size_t k = 0; k < best.size(); ++k)
+      weights.col(as_index(k)).array() += best[k].log_prior();
+    std::vector<LawContext> contexts =
+        leading(contexts_, weights.rowwise().maxCoeff(), kMostContexts, kContextsWithin);
+    append_all(contexts, without_);
+    sort_unique(contexts);
     return contexts;
   }
 
-  std::vector<WeighedLaw> look_again() {
-    std::vector<Chosen> chosen = choose();
-    if (chosen.empty()) return {};
+  ActsBesides besides(const LawContext& context) const {
+    return {sets_[context.set], context.discrepancy};
+  }
+
+  std::vector<WeighedLaw> look_again(const std::vector<LawPoint>& chosen) {
+    std::vector<WeighedLaw> laws;
+    if (chosen.empty()) return laws;
     const std::vector<LawContext> contexts = contexts_with(chosen);
-    take(chosen);
-    std::vector<WeighedLaw> laws(chosen.size());
-    std::vector<std::vector<double>> terms(chosen.size());
-    std::vector<double> best(chosen.size(), kMinusInfinity);
-    std::optional<NormalEquations> equations;
-    int of = std::numeric_limits<int>::min();
-    for (const LawContext& context : contexts) {
-      if (of != context.discrepancy) equations = system_.equations(of = context.discrepancy);
-      for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const double w = system_.log_weight(*equations, context, chosen[k].columns);
-        terms[k].push_back(w);
-        if (!(w > best[k])) continue;
-        best[k] = w;
-        laws[k].set = context.set;
-        laws[k].discrepancy = context.discrepancy;
-        const LawAmplitudes own = system_.amplitudes(*equations, context, chosen[k].columns);
-        laws[k].amplitude = own.value;
-        laws[k].covariance = own.covariance;
-      }
-    }
+    const std::vector<ColumnSet> columns = system_.take(chosen);
+    const MatrixXd weights = system_.log_weights(contexts, columns);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      laws[k].curve = chosen[k].curve;
-      laws[k].at = points_[chosen[k].curve][chosen[k].point].at;
-      laws[k].log_weight = log_sum(terms[k]) + chosen[k].log_prior;
+      const LawPoint& own = chosen[k];
+      laws.push_back({number_, {curves_, own.curve}, own.at, own.mass});
+      laws.back().log_weight = log_sum_of(weights.col(as_index(k))) + own.log_prior();
+      if (!without_.empty()) laws.back().without = besides(without_.front());
+    }
+    for (Index row = 0; row < weights.rows(); ++row) {
+      const LawContext& context = contexts[as_size(row)];
+      for (std::size_t k = 0; k < chosen.size(); ++k) {
+        Index best = 0;
+        weights.col(as_index(k)).maxCoeff(&best);
+        if (best != row) continue;
+        laws[k].with = besides(context);
+        system_.fit(context, columns[k], laws[k]);
+      }
     }
     std::erase_if(laws, [](const WeighedLaw& law) { return !std::isfinite(law.log_weight); });
     stable_sort(laws, descending(&WeighedLaw::log_weight));
@@ -320,25 +218,18 @@ class LawSearch {
 
   std::vector<RegressorSet> sets_;
   LawSystem system_;
-  std::vector<LawCurve> curves_;
-  double log_without_ = 0.0;
-  std::vector<LawContext> first_;    ///< of the first look
-  std::vector<LawContext> without_;  ///< that lead without a law
-  std::vector<std::vector<WeighedPoint>> points_;
-  Indices leading_;
+  std::size_t number_;
+  std::shared_ptr<const std::vector<LawCurve>> curves_;
+  const std::vector<LawContext> contexts_ = system_.contexts();
+  std::vector<LawContext> first_ = {LawContext{}};  ///< of the first look
+  std::vector<LawContext> without_;                 ///< that lead without a law
 };
 
 }  // namespace
 
-double LawEvidence::log_total() const {
-  std::vector<double> terms = {log_without};
-  for (const WeighedLaw& law : laws) terms.push_back(law.log_weight);
-  return log_sum(terms);
-}
-
 LawEvidence weigh_laws(const Analysis& analysis, std::size_t marginalised,
                        std::vector<LawCurve> curves) {
-  return LawSearch(analysis, marginalised, std::move(curves)).run(marginalised);
+  return LawSearch(analysis, marginalised, std::move(curves)).run();
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -13,7 +13,7 @@
 /// law; then the leading laws in every context with a share given one of them.
 #pragma once
 
-#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
@@ -22,30 +22,39 @@
 
 namespace chaintrue::grid::diagnosis {
 
+/// What acts besides a law.
+struct ActsBesides {
+  RegressorSet causes;
+  int discrepancy = -1;
+};
+
 /// One law at one point of its grid, over all contexts.
 struct WeighedLaw {
-  std::size_t curve = 0;
-  double at = 0.0;          ///< as LawCurve::grid
-  double log_weight = 0.0;  ///< mass of the point included
-  std::size_t set = 0;      ///< of the best context, into LawEvidence::sets
-  int discrepancy = -1;
-  VectorXd amplitude;   ///< given the best context
-  MatrixXd covariance;  ///< of these
+  std::size_t marginalised = 0;           ///< of the comparison's systems, in which it was weighed
+  std::shared_ptr<const LawCurve> curve;  ///< one for all its points
+  double at = 0.0;                        ///< as LawCurve::grid
+  double mass = 0.0;                      ///< prior of the point, among those of the curve
+  double log_weight = 0.0;                ///< mass of the point included
+  ActsBesides with{};                     ///< in the best context
+  ActsBesides without{};                  ///< in the best context if no law acts
+  VectorXd amplitude{};                   ///< given the best context
+  MatrixXd covariance{};                  ///< of these
+
+  /// One for each amplitude, in all rows.
+  MatrixXd columns(const RegressorSystem& system) const {
+    return law_columns(system, *curve, {at});
+  }
+  /// What it adds to all rows.
+  VectorXd rows(const RegressorSystem& system) const { return columns(system) * amplitude; }
 };
 
+/// In one of the comparison's marginalised systems.
 struct LawEvidence {
-  std::vector<LawCurve> curves;
-  std::vector<RegressorSet> sets;  ///< of the system's regressors
-  std::size_t marginalised = 0;    ///< in which they were weighed
-  double log_without = 0.0;        ///< no law acts
-  std::size_t without_set = 0;     ///< in the best context of these
-  int without_discrepancy = -1;
+  double log_without = 0.0;      ///< no law acts
   std::vector<WeighedLaw> laws;  ///< those with a share, heaviest first
-  /// Logarithm of all weights together.
-  double log_total() const;
 };
 
-/// In one of the comparison's marginalised systems. `curves` with their shares.
+/// `curves` with their shares.
 LawEvidence weigh_laws(const Analysis& analysis, std::size_t marginalised,
                        std::vector<LawCurve> curves);
 

@@ -7,14 +7,13 @@
 ///   r = C^-1 (e - m)   posterior mean of the noise in rows e, after subtracting m
 ///
 /// \code
-///   LawModel model(analysis, marginalised, {3, 7}, -1);
-///   const Eigen::VectorXd noise = model.noise_of(law);
+///   const LawModel model(analysis, marginalised, {{3, 7}, -1});
+///   const Eigen::VectorXd noise = model.left_of(law).noise;
 /// \endcode
 #pragma once
 
 #include <algorithm>
 #include <optional>
-#include <vector>
 
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
@@ -25,32 +24,26 @@ namespace chaintrue::grid::diagnosis {
 
 class LawModel {
  public:
-  /// `regressors` of the system; `discrepancy` -1 for none. Both arguments must outlive this.
-  LawModel(const Analysis& a, const MarginalisedSystem& marginalised,
-           const RegressorSet& regressors, int discrepancy)
+  /// `law`: columns of a law, all rows. The analysis and the system must outlive this.
+  LawModel(const Analysis& a, const MarginalisedSystem& marginalised, const ActsBesides& besides,
+           const std::optional<MatrixXd>& law = {})
       : system_(a.system),
         marginalised_(marginalised),
-        pattern_(discrepancy_columns(a.system, marginalised, discrepancy)),
-        reduced_(marginalised.root.solve(pattern_)) {
-    if (discrepancy >= 0) process_ = discrepancy_of(a.system, marginalised, discrepancy);
-    for (const int k : regressors) add(VectorXd(a.system.g.col(k)));
-  }
-
-  /// Adds a column (all rows) of unknown amplitude.
-  void add(const VectorXd& column) {
-    const VectorXd own = reduced(marginalised_, column);
-    // Amplitude at the usual strength.
-    sigmas_.push_back(kUsualSignalToNoise / std::max(own.norm(), 1e-12));
-    columns_.push_back(sigmas_.back() * marginalised_.kept(column));
-    reduced_.conservativeResize(Eigen::NoChange, reduced_.cols() + 1);
-    reduced_.rightCols(1) = sigmas_.back() * own;
-  }
-
-  /// For all kept rows, after subtracting `known` (all rows).
-  double log_density(const VectorXd& known) const {
-    const LowRankNoise noise(reduced_);
-    return density().log_density(noise.half_solve(left_by(known)).squaredNorm()) -
-           0.5 * (marginalised_.log_det + noise.log_det());
+        pattern_(discrepancy_columns(a.system, marginalised, besides.discrepancy)),
+        columns_(a.system.g.dense(besides.causes)) {
+    if (besides.discrepancy >= 0)
+      process_ = discrepancy_of(a.system, marginalised, besides.discrepancy);
+    if (law) {
+      columns_.conservativeResize(Eigen::NoChange, columns_.cols() + law->cols());
+      columns_.rightCols(law->cols()) = *law;
+    }
+    columns_ = marginalised.kept.of(columns_);
+    const MatrixXd own = marginalised.root.solve(columns_);
+    // Amplitudes at the usual strength.
+    sigmas_ = kUsualSignalToNoise / own.colwise().norm().transpose().array().max(1e-12);
+    columns_ = linear::scaled_columns(columns_, sigmas_);
+    reduced_.resize(own.rows(), pattern_.cols() + own.cols());
+    reduced_ << marginalised.root.solve(pattern_), linear::scaled_columns(own, sigmas_);
   }
 
   /// The noise part of the kept rows and, with the discrepancy added, the machine's residual, after
@@ -69,26 +62,17 @@ class LawModel {
   }
 
   /// The prediction of other rows, whitened, from all kept ones: mean, and the
-  /// covariance without their noise. `columns` of these rows: the regressors', then those added.
+  /// covariance without their noise. `columns` of these rows: the regressors', then the law's.
   ///   m = X* f + K* C^-1 (e - X f),  S = K** - K* C^-1 K*'
   /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations 2.38 and 2.39.
-  struct Expected {
-    VectorXd mean;
-    MatrixXd covariance;
-  };
-  Expected expected_of(const RegressorSystem& next, const MatrixXd& columns) const {
+  Alternative expected_of(const RegressorSystem& next, const MatrixXd& columns) const {
     const Index settings = system_.by_setting.cols();
-    const Index rows = marginalised_.kept.size();
-    MatrixXd here(rows, settings + columns.cols());
-    MatrixXd there(next.by_setting.rows(), settings + columns.cols());
-    here.leftCols(settings) =
-        linear::scaled_columns(marginalised_.kept.of(system_.by_setting), system_.sigma);
-    there.leftCols(settings) =
-        linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma);
-    for (Index k = 0; k < columns.cols(); ++k) {
-      here.col(settings + k) = columns_[as_size(k)];
-      there.col(settings + k) = sigmas_[as_size(k)] * columns.col(k);
-    }
+    MatrixXd here(columns_.rows(), settings + columns.cols());
+    here << linear::scaled_columns(marginalised_.kept.of(system_.by_setting), system_.sigma),
+        columns_;
+    MatrixXd there(next.by_setting.rows(), here.cols());
+    there << linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma),
+        linear::scaled_columns(columns, sigmas_);
     MatrixXd across = linear::product(here, linear::transposed(there));
     MatrixXd own = linear::outer(there);
     // Holes not yet cut have their own columns, after all others.
@@ -105,7 +89,7 @@ class LawModel {
     }
     const LowRankNoise noise(reduced_);
     const MatrixXd half = noise.half_solve(marginalised_.root.solve(across));
-    Expected expected;
+    Alternative expected;
     expected.mean = linear::product(next.by_setting.leftCols(settings), system_.expected_change);
     linear::add_product(expected.mean, 1.0, linear::transposed(half),
                         noise.half_solve(marginalised_.e));
@@ -114,12 +98,14 @@ class LawModel {
     return expected;
   }
 
-  /// The kept rows without some of them, from one factorisation.
+  /// The kept rows, after subtracting `known` (all rows), without some of them, from one factorisation.
   class Downdated {
    public:
     explicit Downdated(const LawModel& model)
+        : Downdated(model, VectorXd::Zero(model.system_.e.size())) {}
+    Downdated(const LawModel& model, const VectorXd& known)
         : dof_(model.system_.noise_dof),
-          rows_(model.marginalised_.root, LowRankNoise(model.reduced_), model.marginalised_.e) {}
+          rows_(model.marginalised_.root, LowRankNoise(model.reduced_), model.left_by(known)) {}
     struct Without {
       double log_density = 0.0;  ///< of the other rows
       VectorXd left;  ///< of those left out: the difference from the prediction by the others
@@ -138,7 +124,6 @@ class LawModel {
   };
 
  private:
-  NoiseDensity density() const { return {system_.noise_dof, marginalised_.kept.size()}; }
   /// R^-1 (e - known)
   VectorXd left_by(const VectorXd& known) const {
     return marginalised_.e - reduced(marginalised_, known);
@@ -147,21 +132,22 @@ class LawModel {
   const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   std::optional<Discrepancy> process_;
-  MatrixXd pattern_;               ///< s F in the kept rows; no columns without a discrepancy
-  MatrixXd reduced_;               ///< B
-  std::vector<VectorXd> columns_;  ///< kept rows, scaled to one sigma each
-  std::vector<double> sigmas_;
+  MatrixXd pattern_;  ///< s F in the kept rows; no columns without a discrepancy
+  MatrixXd columns_;  ///< kept rows of the regressors and the law, scaled to one sigma each
+  VectorXd sigmas_;   ///< of these
+  MatrixXd reduced_;  ///< B
 };
 
-/// An explanation with the amplitudes of a law at one place; null for the likeliest without a law.
-inline LawModel model_with(const Analysis& a, const LawEvidence& evidence, const WeighedLaw* law) {
-  LawModel model(a, a.comparison.marginalised_systems[evidence.marginalised],
-                 evidence.sets[law != nullptr ? law->set : evidence.without_set],
-                 law != nullptr ? law->discrepancy : evidence.without_discrepancy);
-  if (law == nullptr) return model;
-  const MatrixXd columns = law_columns(a.system, evidence.curves[law->curve], {law->at});
-  for (Index k = 0; k < columns.cols(); ++k) model.add(VectorXd(columns.col(k)));
-  return model;
+/// The system in which a law was weighed.
+inline const MarginalisedSystem& marginalised_system(const Analysis& a, const WeighedLaw& law) {
+  return a.comparison.marginalised_systems[law.marginalised];
+}
+/// The likeliest explanation with the amplitudes of a law at one place, and without a law.
+inline LawModel model_with(const Analysis& a, const WeighedLaw& law) {
+  return {a, marginalised_system(a, law), law.with, law.columns(a.system)};
+}
+inline LawModel model_without(const Analysis& a, const WeighedLaw& law) {
+  return {a, marginalised_system(a, law), law.without};
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -3,22 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/eigen.hpp"
+#include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-std::vector<LawResidual> residuals_about(const Analysis& a, const LawEvidence& evidence,
-                                         const WeighedLaw& weighed, const Law& law) {
+std::vector<LawResidual> residuals_about(const Analysis& a, const WeighedLaw& weighed,
+                                         const Law& law) {
   const RegressorSystem& system = a.system;
-  const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[evidence.marginalised];
-  const LawCurve& curve = evidence.curves[weighed.curve];
-  const LawModel model(a, marginalised, evidence.sets[weighed.set], weighed.discrepancy);
-  const LawModel::Left left =
-      model.left_of(law_columns(system, curve, {weighed.at}) * weighed.amplitude);
+  const MarginalisedSystem& marginalised = marginalised_system(a, weighed);
+  const LawModel::Left left = LawModel(a, marginalised, weighed.with).left_of(weighed.rows(system));
+  VectorXd unexplained = VectorXd::Zero(system.e.size());
+  unexplained(marginalised.kept.rows()) = left.unexplained;
   std::vector<LawResidual> points;
   const bool of_belts = system.is_of_lengths();
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
@@ -27,13 +26,11 @@ std::vector<LawResidual> residuals_about(const Analysis& a, const LawEvidence& e
     LawResidual point;
     point.index = a.session.units[kept.unit].index;
     if (!of_belts) {
-      VectorXd rows = VectorXd::Zero(system.e.size());
-      rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
-      const Vector2d left_mm = error_of_unit(system, rows, kept.unit);
+      const Vector2d left_mm = error_of_unit(system, unexplained, kept.unit);
       point.left_x_mm = left_mm.x();
       point.left_y_mm = left_mm.y();
     }
-    for (const LawRows& own : law_rows(system, kept.unit, curve)) {
+    for (const LawRows& own : law_rows(system, kept.unit, *weighed.curve)) {
       // Readings that cannot show the law are omitted.
       if (!(own.rows.squaredNorm() > 0.0)) continue;
       point.at = own.v;
@@ -80,19 +77,21 @@ bool joins_places(const RegressorSystem& system) {
   return any_of(system.units, [](const SystemUnit& unit) { return unit.places.size() > 1; });
 }
 
+/// Whether a unit was read at some place of which this holds.
+template <class Holds>
+bool is_at(const SystemUnit& unit, const Holds& holds) {
+  return any_of(unit.places, [&](const auto& own) { return holds(own.place); });
+}
+
 /// Every fourth place.
 std::vector<Indices> folds(const RegressorSystem& system, const KeptRows& kept) {
   std::vector<Indices> result(kFolds);
-  if (!joins_places(system)) {
-    for (std::size_t k = 0; k < kept.units().size(); ++k)
-      result[k % kFolds].push_back(kept.units()[k].unit);
-    return result;
-  }
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    for (const KeptRows::Unit& unit : kept.units()) {
-      const auto& places = system.units[unit.unit].places;
-      if (any_of(places, [&](const auto& own) { return own.place % kFolds == fold; }))
-        result[fold].push_back(unit.unit);
+    const auto is_of_fold = [&](std::size_t number) { return number % kFolds == fold; };
+    for (std::size_t k = 0; k < kept.units().size(); ++k) {
+      const std::size_t unit = kept.units()[k].unit;
+      if (joins_places(system) ? is_at(system.units[unit], is_of_fold) : is_of_fold(k))
+        result[fold].push_back(unit);
     }
   }
   return result;
@@ -100,19 +99,15 @@ std::vector<Indices> folds(const RegressorSystem& system, const KeptRows& kept) 
 
 /// A quarter of the places, those farthest towards a direction.
 Indices quarter_of_places(const RegressorSystem& system, const KeptRows& kept, double towards_rad) {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t p = 0; p < system.places.size(); ++p) {
-    const model::MarkPoint& mark = system.places[p].mark;
-    order.emplace_back(-(mark.x_mm * std::cos(towards_rad) + mark.y_mm * std::sin(towards_rad)), p);
-  }
-  sort(order);
+  const Vector2d towards(std::cos(towards_rad), std::sin(towards_rad));
+  Indices order = numbers_below(system.places.size());
+  stable_sort(order, descending([&](std::size_t place) {
+                return towards.dot(vector_of(system.places[place].mark));
+              }));
   order.resize(order.size() / 4);
   Indices units;
   for (const KeptRows::Unit& unit : kept.units()) {
-    const auto& places = system.units[unit.unit].places;
-    if (any_of(places, [&](const auto& own) {
-          return any_of(order, [&](const auto& p) { return p.second == own.place; });
-        }))
+    if (is_at(system.units[unit.unit], [&](std::size_t place) { return contains(order, place); }))
       units.push_back(unit.unit);
   }
   return units;
@@ -120,16 +115,15 @@ Indices quarter_of_places(const RegressorSystem& system, const KeptRows& kept, d
 
 class Predictor {
  public:
-  Predictor(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law)
+  Predictor(const Analysis& a, const WeighedLaw& law, const LawPoints& of_curve)
       : system_(a.system),
-        kept_(a.comparison.marginalised_systems[evidence.marginalised].kept),
-        without_(model_with(a, evidence, nullptr)) {
-    for (const WeighedLaw& own : evidence.laws) {
-      if (own.curve != law.curve || with_.size() == kMostValues) continue;
-      WeighedLaw other = own;
-      other.set = law.set;
-      other.discrepancy = law.discrepancy;
-      with_.emplace_back(model_with(a, evidence, &other));
+        kept_(marginalised_system(a, law).kept),
+        without_(model_without(a, law)) {
+    for (const WeighedLaw* own : of_curve) {
+      if (with_.size() == kMostValues) break;
+      WeighedLaw other = *own;
+      other.with = law.with;
+      with_.emplace_back(model_with(a, other));
     }
   }
 
@@ -142,8 +136,8 @@ class Predictor {
       const Rows out = kept_.positions(left_out);
       // No prediction for a part that was rejected, or that is everything.
       if (out.empty() || std::ssize(out) == kept_.size()) continue;
-      without += square_mm2(without_.without(out).left, left_out);
-      with += square_mm2(likeliest(out).left, left_out);
+      without += square_mm2(without_.without(out).left, out, left_out);
+      with += square_mm2(likeliest(out).left, out, left_out);
       count += 1.0;
     }
     if (!(count > 0.0)) return {};
@@ -158,15 +152,10 @@ class Predictor {
     return *max_element(all, ascending(&LawModel::Downdated::Without::log_density));
   }
 
-  double square_mm2(const VectorXd& wrong, const Indices& units) const {
+  double square_mm2(const VectorXd& wrong, const Rows& out, const Indices& units) const {
     VectorXd rows = VectorXd::Zero(system_.e.size());
-    Index at = 0;
-    for (const KeptRows::Unit& unit : kept_.units()) {
-      if (!contains(units, unit.unit)) continue;
-      if (!unit.across)
-        rows.segment(system_.units[unit.unit].first_row, unit.rows) = wrong.segment(at, unit.rows);
-      at += unit.rows;
-    }
+    for (Index k = 0; k < wrong.size(); ++k)
+      rows(kept_.rows()[as_size(out[as_size(k)])]) = wrong(k);
     return std::pow(rms_of_units_mm(system_, kept_, rows, units), 2);
   }
 
@@ -178,13 +167,12 @@ class Predictor {
 
 }  // namespace
 
-std::optional<LawHeldOut> held_out_with(const Analysis& a, const LawEvidence& evidence,
-                                        const WeighedLaw& law) {
-  const std::vector<BedPart> quarters =
-      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+std::optional<LawHeldOut> held_out_with(const Analysis& a, const WeighedLaw& law,
+                                        const LawPoints& of_curve) {
+  const std::vector<BedPart> quarters = bed_parts(a.system, a.session.fewest_units);
   if (quarters.empty()) return std::nullopt;
-  const Predictor predictor(a, evidence, law);
-  const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
+  const Predictor predictor(a, law, of_curve);
+  const KeptRows& kept = marginalised_system(a, law).kept;
   std::vector<Indices> parts;
   for (const BedPart& quarter : quarters) {
     parts.push_back(joins_places(a.system) ? quarter_of_places(a.system, kept, quarter.towards_rad)
@@ -193,14 +181,12 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a, const LawEvidence& ev
   return LawHeldOut{predictor.errors(folds(a.system, kept)), predictor.errors(parts)};
 }
 
-double averaged_over_parts(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law,
-                           double probability) {
-  const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
-  const std::vector<BedPart> parts =
-      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+double averaged_over_parts(const Analysis& a, const WeighedLaw& law, double probability) {
+  const KeptRows& kept = marginalised_system(a, law).kept;
+  const std::vector<BedPart> parts = bed_parts(a.system, a.session.fewest_units);
   if (parts.empty()) return probability;
-  const LawModel::Downdated with(model_with(a, evidence, &law));
-  const LawModel::Downdated without(model_with(a, evidence, nullptr));
+  const LawModel::Downdated with(model_with(a, law));
+  const LawModel::Downdated without(model_without(a, law));
   const auto log_ratio = [&](const Rows& out) {
     return with.without(out).log_density - without.without(out).log_density;
   };

@@ -29,9 +29,12 @@ namespace chaintrue::grid::diagnosis {
 //
 // Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.25.
 
-/// For the law at the heaviest point of its curve; absent if no parts of the bed can be left out.
-std::optional<LawHeldOut> held_out_with(const Analysis& analysis, const LawEvidence& evidence,
-                                        const WeighedLaw& law);
+/// The points of one curve, the heaviest first.
+using LawPoints = std::vector<const WeighedLaw*>;
+
+/// For the law at one of the points of its curve; absent if no parts of the bed can be left out.
+std::optional<LawHeldOut> held_out_with(const Analysis& analysis, const WeighedLaw& law,
+                                        const LawPoints& of_curve);
 
 /// The probability of a law averaged over parts of the bed, as that of causes given a pattern is
 /// (bed_parts.hpp): a real pattern follows no law exactly, and a slightly wrong likelihood gives
@@ -44,11 +47,10 @@ std::optional<LawHeldOut> held_out_with(const Analysis& analysis, const LawEvide
 /// (J. Huggins and J. Miller, Bayesian Analysis 18 (2023) 79.)
 
 /// `probability` is that of all readings; it is returned if there are no such parts.
-double averaged_over_parts(const Analysis& analysis, const LawEvidence& evidence,
-                           const WeighedLaw& law, double probability);
+double averaged_over_parts(const Analysis& analysis, const WeighedLaw& law, double probability);
 
 /// For the points that are kept whole, in the order of the files; `law` with the parameters of `weighed`.
-std::vector<LawResidual> residuals_about(const Analysis& analysis, const LawEvidence& evidence,
-                                         const WeighedLaw& weighed, const Law& law);
+std::vector<LawResidual> residuals_about(const Analysis& analysis, const WeighedLaw& weighed,
+                                         const Law& law);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -16,11 +16,10 @@ namespace {
 
 constexpr double kDegreesOfRadian = 180.0 / std::numbers::pi;
 
-/// Two digits of the sigma.
-std::string number_words(double value, double sigma) {
-  if (!(sigma > 0.0)) return fmt::format("{:.3g}", value);
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 4);
-  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
+std::string number_words(const ParameterEstimate& own, double factor) {
+  constexpr int kMostDigits = 4;
+  return own.sigma > 0.0 ? with_sigma(factor * own.value, factor * own.sigma, kMostDigits)
+                         : fmt::format("{:.3g}", factor * own.value);
 }
 
 /// How a number with a variable's unit is written, and a slope over it.
@@ -37,39 +36,20 @@ constexpr VariableUnit kVariableUnits[] = {
     {"n", 1.0, "N", 1.0, "mm a newton"},
     {"visit", 1.0, "visits", 1.0, "mm a visit"}};
 
-const VariableUnit& unit_of_variable(const Law& law) {
-  return *find_where(kVariableUnits,
-                     [&](const VariableUnit& one) { return one.unit == unit_of(law.of); });
-}
-
-/// A place, scale or period with its unit.
-std::string quantity_words(const Law& law, const ParameterEstimate& estimate) {
-  const VariableUnit& unit = unit_of_variable(law);
-  return fmt::format("{} {}",
-                     number_words(unit.factor * estimate.value, unit.factor * estimate.sigma),
-                     unit.words);
-}
-
-std::string entrance_words(Enters enters) {
-  if (const auto belt = belt_of(enters)) return fmt::format("in the {} belt", model::words(*belt));
-  constexpr std::string_view kWords[] = {"in the left chain",
-                                         "in the right chain",
-                                         "in both chains equally",
-                                         "in both chains, with opposite signs",
-                                         "which moves the tool along x",
-                                         "which moves the tool along y",
-                                         "",
-                                         "which moves the tool in that direction",
-                                         "which moves the tool outwards"};
-  return std::string(kWords[static_cast<std::size_t>(enters)]);
-}
-
-/// A slope over the whole range, converted to its natural unit.
-std::string slope_words(const Law& law, const ParameterEstimate& size) {
-  const VariableUnit& unit = unit_of_variable(law);
-  const double per = unit.slope_factor / (law.to - law.from);
-  return fmt::format("{} {}", number_words(size.value * per, size.sigma * per), unit.slope_words);
-}
+/// By Enters.
+constexpr std::string_view kEntrances[] = {"in the left chain",
+                                           "in the right chain",
+                                           "in both chains equally",
+                                           "in both chains, with opposite signs",
+                                           "which moves the tool along x",
+                                           "which moves the tool along y",
+                                           "",
+                                           "which moves the tool in that direction",
+                                           "which moves the tool outwards",
+                                           "in the top left belt",
+                                           "in the top right belt",
+                                           "in the bottom left belt",
+                                           "in the bottom right belt"};
 
 /// Whether the law's place or period is this value, within two sigmas or `least`.
 bool is_near(const Law& law, double value, double least) {
@@ -77,33 +57,35 @@ bool is_near(const Law& law, double value, double least) {
   return std::abs(own.value - value) < std::max(2.0 * own.sigma, least);
 }
 
+/// Whether its period may be a turn of something, if its variable is a chain's or belt's.
+bool is_wave_of_length(const Law& law) { return is_periodic(law.shape) && unit_of(law.of) == "mm"; }
+
 }  // namespace
 
 std::string variable_in_words(const Law& law) {
-  const bool of_belts = belt_of(law.enters).has_value();
-  switch (law.of) {
-    case Coordinate::x:
-      return of_belts ? "x from the bottom left anchor" : "x";
-    case Coordinate::y:
-      return of_belts ? "y from the bottom left anchor" : "y";
-    case Coordinate::across:
-      return fmt::format("the distance{} in the direction {:.0f} degrees from x towards y",
-                         of_belts ? " from the bottom left anchor" : "", law.direction_deg);
-    case Coordinate::border:
-      return "the distance from the border";
-    case Coordinate::visit:
-      return "the number of the visit";
-    default:
-      break;
-  }
-  const auto belt = belt_of(law.of);
-  const std::string owner =
-      belt ? fmt::format("the {} belt", model::words(*belt))
-           : fmt::format("the {} chain", chain_of(law.of) == model::Side::left ? "left" : "right");
-  const std::string_view unit = unit_of(law.of);
-  if (unit == "n") return "the tension in " + owner;
-  if (unit == "mm") return owner + "'s length";
-  return owner + (belt ? "'s angle against the horizontal" : "'s angle below the horizontal");
+  constexpr std::string_view kVariables[] = {
+      "x{anchor}",
+      "y{anchor}",
+      "the distance{anchor} in the direction {direction:.0f} degrees from x towards y",
+      "the distance from the border",
+      "the left chain's length",
+      "the right chain's length",
+      "the left chain's angle below the horizontal",
+      "the right chain's angle below the horizontal",
+      "the tension in the left chain",
+      "the tension in the right chain",
+      "the number of the visit",
+      "the top left belt's length",
+      "the top right belt's length",
+      "the bottom left belt's length",
+      "the bottom right belt's length",
+      "the top left belt's angle against the horizontal",
+      "the top right belt's angle against the horizontal",
+      "the bottom left belt's angle against the horizontal",
+      "the bottom right belt's angle against the horizontal"};  // by Coordinate
+  return fmt::format(fmt::runtime(kVariables[static_cast<std::size_t>(law.of)]),
+                     fmt::arg("anchor", belt_of(law.enters) ? " from the bottom left anchor" : ""),
+                     fmt::arg("direction", law.direction_deg));
 }
 
 std::string average_in_words(const Law& law, Observations of) {
@@ -127,31 +109,31 @@ std::string form_in_words(const Law& law) {
 
 std::string in_words(const Law& law) {
   constexpr std::string_view kSentences[] = {
-      "{slope} in proportion to {variable}, {entrance}",
-      "a parabola over {variable} about {at}, {size} mm high half a bed away, {entrance}",
-      "a step of {size} mm at {variable} = {at}, {entrance}",
-      "{slope} {side} {variable} = {at}, {entrance}",
-      "{size} mm at {variable} = {end}, falling to a third within {at}, {entrance}",
-      "a wave of {size} mm over {variable} with period {at}, {entrance}",
-      "a wave of {size} mm over {variable} with period {at} and its second harmonic of {second} "
-      "mm, "
-      "{entrance}"};
-  const std::vector<ParameterEstimate>& own = law.parameters;
-  const auto size_words = [&](std::size_t k) {
-    return k < own.size() ? number_words(own[k].value, own[k].sigma) : "";
+      "{slope} {per} in proportion to {variable}, {entrance}",
+      "a parabola over {variable} about {at} {unit}, {size} mm high half a bed away, {entrance}",
+      "a step of {size} mm at {variable} = {at} {unit}, {entrance}",
+      "{slope} {per} {side} {variable} = {at} {unit}, {entrance}",
+      "{size} mm at {variable} = {end}, falling to a third within {at} {unit}, {entrance}",
+      "a wave of {size} mm over {variable} with period {at} {unit}, {entrance}",
+      "a wave of {size} mm over {variable} with period {at} {unit} and its second harmonic of "
+      "{second} mm, {entrance}"};
+  const VariableUnit& unit = *find_where(
+      kVariableUnits, [&](const VariableUnit& one) { return one.unit == unit_of(law.of); });
+  const auto words_of = [&](std::size_t k, double factor) {
+    return k < law.parameters.size() ? number_words(law.parameters[k], factor) : "";
   };
   return fmt::format(fmt::runtime(kSentences[static_cast<std::size_t>(law.shape)]),
-                     fmt::arg("size", size_words(0)), fmt::arg("second", size_words(3)),
-                     fmt::arg("slope", slope_words(law, own.front())),
-                     fmt::arg("at", own.size() > 1 ? quantity_words(law, own[1]) : ""),
+                     fmt::arg("size", words_of(0, 1.0)), fmt::arg("second", words_of(3, 1.0)),
+                     fmt::arg("slope", words_of(0, unit.slope_factor / (law.to - law.from))),
+                     fmt::arg("per", unit.slope_words), fmt::arg("at", words_of(1, unit.factor)),
+                     fmt::arg("unit", unit.words),
                      fmt::arg("side", law.towards > 0 ? "beyond" : "below"),
                      fmt::arg("end", law.towards > 0 ? "largest" : "least"),
                      fmt::arg("variable", variable_in_words(law)),
-                     fmt::arg("entrance", entrance_words(law.enters)));
+                     fmt::arg("entrance", kEntrances[static_cast<std::size_t>(law.enters)]));
 }
 
 std::string given_law_words(const Diagnosis& d) {
-  if (!d.unexplained) return "";
   std::vector<std::string> named, gone;
   double sum = 0.0;
   for (const CauseGivenLaw& own : d.unexplained->causes_given_law) {
@@ -178,9 +160,8 @@ std::string given_law_words(const Diagnosis& d) {
 
 std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine) {
   const double turn = machine.belt_turn_mm;
-  const bool of_length = belt_of(law.of) && unit_of(law.of) == "mm";
   // Tolerance of a belt's pitch: one per cent.
-  if (!of_length || !is_periodic(law.shape) || !is_near(law, turn, 0.01 * turn)) return {};
+  if (!is_wave_of_length(law) || !belt_of(law.of) || !is_near(law, turn, 0.01 * turn)) return {};
   return {fmt::format(
       "Its period is near one turn of the motor ({:.3f} mm of belt): is its pulley or its magnet "
       "eccentric?",
@@ -189,23 +170,22 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
 
 std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
   std::vector<std::string> hints;
-  const bool of_length = chain_of(law.of) && unit_of(law.of) == "mm";
-  if (is_periodic(law.shape) && of_length) {
-    const double pitch = machine.sprocket.pitch_mm;
-    const double turn = machine.sprocket.teeth * pitch;
-    // Tolerance of a period: one per cent.
-    if (is_near(law, turn, 0.01 * turn)) {
-      hints.push_back(fmt::format(
-          "Its period is near one turn of the sprocket ({:.1f} mm): is it eccentric?", turn));
-    } else if (is_near(law, 0.5 * turn, 0.005 * turn)) {
-      hints.push_back(fmt::format(
-          "Its period is near half a turn of the sprocket ({:.1f} mm): is it out of round?",
-          0.5 * turn));
-    } else if (is_near(law, pitch, 0.01 * pitch)) {
-      hints.push_back(
-          fmt::format("Its period is near one link and one tooth ({:.2f} mm): does the chain ride "
-                      "on the teeth?",
-                      pitch));
+  const double pitch = machine.sprocket.pitch_mm;
+  const double turn = machine.sprocket.teeth * pitch;
+  // Tolerance of a period: one per cent of a turn or a link.
+  const struct {
+    double period_mm, least_mm;
+    std::string_view hint;
+  } periods[] = {
+      {turn, 0.01 * turn, "one turn of the sprocket ({:.1f} mm): is it eccentric?"},
+      {0.5 * turn, 0.005 * turn, "half a turn of the sprocket ({:.1f} mm): is it out of round?"},
+      {pitch, 0.01 * pitch,
+       "one link and one tooth ({:.2f} mm): does the chain ride on the teeth?"}};
+  if (is_wave_of_length(law) && chain_of(law.of)) {
+    const auto* own = find_where(
+        periods, [&](const auto& one) { return is_near(law, one.period_mm, one.least_mm); });
+    if (own != nullptr) {
+      hints.push_back("Its period is near " + fmt::format(fmt::runtime(own->hint), own->period_mm));
     }
   }
   constexpr double kNearMm = 30.0;  // a hand's breadth to either side is the same place

@@ -27,7 +27,8 @@ std::string form_in_words(const Law& law);
 std::string average_in_words(const Law& law, Observations of);
 
 /// " Given this law, they also name a stretched left chain (...), 96 %." and what they would
-/// name without it; empty if the law changes no name.
+/// name without it; empty if the law changes no name. \pre A law is
+/// claimed.
 std::string given_law_words(const Diagnosis& d);
 
 /// Hints, as sentences: what on this machine has about this period or place.

@@ -14,29 +14,21 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Laws with their evidence.
 struct LawsFound {
   std::vector<Law> laws;
-  std::vector<LawEvidence> evidence;
-  /// For each law, indices into evidence and into its laws.
-  struct Heaviest {
-    std::size_t evidence = 0;
-    std::size_t law = 0;
-  };
-  std::vector<Heaviest> heaviest;
+  std::vector<WeighedLaw> heaviest;  ///< the likeliest point of each
 };
 
 /// Likeliest first, at most three; empty unless all laws together are at least kLawLikely, and if
 /// only one cause is requested.
 LawsFound laws_found(const Analysis& analysis);
 
-/// As above from evidence in one or more of the comparison's systems, each with the same laws.
-LawsFound laws_of(const Analysis& analysis, std::vector<LawEvidence> evidence);
 /// Adds them to a complete diagnosis: to its hypotheses and, if no cause is named, its verdict.
 void take_laws(std::vector<Law> laws, Diagnosis& diagnosis);
 /// The likeliest, if at least kLawClaimed; else null.
 const Law* claimed_law(const Diagnosis& diagnosis);
-/// Probability that some law acts.
+/// Probability that some law acts, from evidence in one or more of the comparison's systems, each with the same
+/// laws.
 double probability_of_any(const std::vector<LawEvidence>& evidence);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -6,123 +6,85 @@
 
 #include <fmt/format.h>
 
+#include "grid/diagnosis/other_places.hpp"
 #include "grid/eigen.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Readings of the machine, with the sigma that careful work with usual tools reaches.
-struct MachineReading {
-  ReadingOf what;
-  const char* side;
-  double sigma;
-};
 constexpr double kTapeErrorSigmaMmPerM = 0.15;  // two metres to 0.3 mm, a good tape's tolerance
-constexpr MachineReading kReadings[] = {
-    {ReadingOf::motor_spacing, "", 1.0},
-    {ReadingOf::beam_rise, "", 1.0},
-    {ReadingOf::ring_radius, "", 0.5},
-    {ReadingOf::link_pitch, "left", kLinkPitchSigmaMm},
-    {ReadingOf::link_pitch, "right", kLinkPitchSigmaMm},
-    {ReadingOf::chain_mass, "", 0.002},
-    {ReadingOf::tape_error, "x", kTapeErrorSigmaMmPerM},
-    {ReadingOf::tape_error, "y", kTapeErrorSigmaMmPerM},
+
+/// One observation of candidates; `rows` are its own.
+struct CandidateReadings {
+  FollowUp observation;
+  std::vector<Candidate> all;
 };
 
-/// All measurements at a mark, one more visit each.
-class PointCandidates {
- public:
-  PointCandidates(const Analysis& a, std::size_t part)
-      : session_(a.session),
-        part_(part),
-        own_(dynamic_cast<const observation::ChainLengthReadings&>(
-            *a.session.parts[part].observation)),
-        model_(a.state.machine),
-        sheet_(a.state.sheet_of(a.session.parts[part])) {
-    for (const observation::Place& p : own_.places()) next_visit_ = std::max(next_visit_, p.order);
-    ++next_visit_;
-    add_points();
-    add_revisits();
+/// One more visit of a mark each: over the bed, as far as the sheet was measured and slightly beyond,
+/// and of marks that were visited in a known order.
+CandidateReadings candidate_points(const Analysis& a, std::size_t part) {
+  const observation::Observation& own = *a.session.parts[part].observation;
+  int next_visit = 1;
+  for (const observation::Place& p : own.places()) next_visit = std::max(next_visit, p.order + 1);
+  std::vector<observation::Place> places;
+  std::vector<Candidate> all;
+  const auto add = [&](model::MarkPoint mark, MeasurementKind kind, std::string what) {
+    const auto row = 2 * std::ssize(places);
+    places.push_back({0, "", mark, {}, next_visit});
+    all.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
+  };
+  const observation::View view = a.state.view(a.session.parts[part]);
+  const interp::Rectangle area = marked_area(a.session);
+  const model::Bed& bed = a.session.stated.bed;
+  const double x = std::min(1.1 * std::max(-area.x_min, area.x_max), 0.49 * bed.width_mm);
+  const double y = std::min(1.1 * std::max(-area.y_min, area.y_max), 0.49 * bed.height_mm);
+  for (const model::MarkPoint& place : raster({-x, x, -y, y}, 20, 12, RasterOf::nodes)) {
+    // Whole millimetres: the list is for a person with a tape.
+    const model::MarkPoint mark{std::round(place.x_mm), std::round(place.y_mm)};
+    if (view.chains().at(view.sheet.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
   }
-
-  CandidateReadings take() {
-    // Each is a next visit; their order is arbitrary.
-    return {{std::make_shared<const observation::ChainLengthReadings>(
-                 observation::ChainLengthReadings::in_given_order(
-                     std::move(places_), false, own_.noise(), own_.noise_dof(), own_.sheet())),
-             part_},
-            std::move(candidates_)};
-  }
-
- private:
-  void add(model::MarkPoint mark, MeasurementKind kind, std::string what) {
-    const auto row = 2 * std::ssize(places_);
-    places_.push_back({0, "", mark, {}, next_visit_});
-    candidates_.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
-  }
-
-  /// Over the bed, as far as the sheet was measured and slightly beyond.
-  void add_points() {
-    double x = 0.0;
-    double y = 0.0;
-    for (const observation::Place& p : own_.places()) {
-      x = std::max(x, std::abs(p.mark.x_mm));
-      y = std::max(y, std::abs(p.mark.y_mm));
-    }
-    x = std::min(1.1 * x, 0.49 * session_.stated.bed.width_mm);
-    y = std::min(1.1 * y, 0.49 * session_.stated.bed.height_mm);
-    for (const model::MarkPoint& place : raster({-x, x, -y, y}, 20, 12, RasterOf::nodes)) {
-      // Whole millimetres: the list is for a person with a tape.
-      const model::MarkPoint mark{std::round(place.x_mm), std::round(place.y_mm)};
-      if (model_.at(sheet_.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
-    }
-  }
-
-  void add_revisits() {
-    if (!own_.ordered()) return;
-    const observation::Place& first = own_.places().front();
+  if (own.ordered()) {
+    const observation::Place& first = own.places().front();
     add(first.mark, MeasurementKind::revisit,
         fmt::format("point {}, the first of the session, again", first.index + 1));
-    const observation::Place& middle = own_.places()[own_.places().size() / 2];
+    const observation::Place& middle = own.places()[own.places().size() / 2];
     add(middle.mark, MeasurementKind::revisit,
         fmt::format("point {} again, coming from the other side", middle.index + 1));
   }
+  // Each is a next visit; their order is arbitrary.
+  return {readings_at(a.session, part, std::move(places)), std::move(all)};
+}
 
-  const ObservationSet& session_;
-  std::size_t part_;
-  const observation::ChainLengthReadings& own_;
-  model::ReadingModel model_;
-  model::SheetPlacement sheet_;
-  int next_visit_ = 0;
-  std::vector<observation::Place> places_;
-  std::vector<Candidate> candidates_;
-};
-
-/// Readings of the machine that were not taken.
+/// Readings of the machine that were not taken, with the sigma that careful work with usual tools
+/// reaches.
 std::optional<CandidateReadings> candidate_readings(const ObservationSet& session) {
-  const std::vector<ExtraReading>& taken = session.readings();
-  std::vector<ExtraReading> readings;
-  for (const MachineReading& r : kReadings) {
-    const bool done =
-        any_of(taken, [&](const ExtraReading& x) { return x.what == r.what && x.side == r.side; });
-    const ExtraReading reading{r.what, r.side, 0.0, r.sigma};
-    if (!done && observation::is_predictable(session.stated, reading)) readings.push_back(reading);
-  }
+  std::vector<ExtraReading> readings = {
+      {ReadingOf::motor_spacing, "", 0.0, 1.0},
+      {ReadingOf::beam_rise, "", 0.0, 1.0},
+      {ReadingOf::ring_radius, "", 0.0, 0.5},
+      {ReadingOf::link_pitch, "left", 0.0, kLinkPitchSigmaMm},
+      {ReadingOf::link_pitch, "right", 0.0, kLinkPitchSigmaMm},
+      {ReadingOf::chain_mass, "", 0.0, 0.002},
+      {ReadingOf::tape_error, "x", 0.0, kTapeErrorSigmaMmPerM},
+      {ReadingOf::tape_error, "y", 0.0, kTapeErrorSigmaMmPerM},
+  };
+  std::erase_if(readings, [&](const ExtraReading& own) {
+    return !observation::is_predictable(session.stated, own) ||
+           any_of(session.readings(), [&](const ExtraReading& taken) {
+             return taken.what == own.what && taken.side == own.side;
+           });
+  });
   if (readings.empty()) return std::nullopt;
-  const auto observation =
-      std::make_shared<const observation::SingleReadings>(observation::SingleReadings(readings));
-  std::vector<Candidate> candidates;
-  for (const ExtraReading& r : readings) {
-    const auto& sorted = observation->readings();
-    const auto at = std::find_if(sorted.begin(), sorted.end(), [&](const ExtraReading& x) {
-      return x.what == r.what && x.side == r.side;
-    });
-    NextMeasurement next{MeasurementKind::reading, "", r.side, std::nullopt, r.sigma};
-    next.reading = r.what;
-    candidates.push_back({std::move(next), {at - sorted.begin()}, 1});
+  const auto observation = std::make_shared<const observation::SingleReadings>(std::move(readings));
+  std::vector<Candidate> all;
+  for (const ExtraReading& own : observation->readings()) {
+    NextMeasurement next{MeasurementKind::reading, "", own.side, std::nullopt, own.sigma};
+    next.reading = own.what;
+    all.push_back({std::move(next), {std::ssize(all)}, 1});
   }
-  return CandidateReadings{{observation, 0}, std::move(candidates)};
+  return CandidateReadings{{observation, 0}, std::move(all)};
 }
 
 constexpr double kApartMm = 200.0;  ///< neighbouring holes are redundant
@@ -149,16 +111,8 @@ class HoleCandidates {
   }
 
  private:
-  bool is_measured(const HoleDistance& wanted) const {
-    return any_of(measured_.distances, [&](const HoleDistance& d) {
-      if (d.edge != wanted.edge) return false;
-      if (d.edge) return d.from == wanted.from;
-      return std::minmax(d.from, d.to) == std::minmax(wanted.from, wanted.to);
-    });
-  }
-
   void add(HoleDistance distance) {
-    if (is_measured(distance)) return;
+    if (is_measured(measured_, distance)) return;
     NextMeasurement next{MeasurementKind::distance,
                          fmt::format("the distance {}", words_of(measured_, distance)), "",
                          std::nullopt, measured_.tape.sigma_mm};
@@ -187,13 +141,10 @@ class HoleCandidates {
 
   /// The existing holes, the farthest from a place first.
   Indices by_distance(const model::BedPoint& place) const {
-    Indices order;
-    for (std::size_t i = 0; i < measured_.holes.size(); ++i) order.push_back(i);
-    const auto squared = [&](std::size_t i) {
-      const model::BedPoint& hole = measured_.holes[i].commanded;
-      return std::pow(hole.x_mm - place.x_mm, 2) + std::pow(hole.y_mm - place.y_mm, 2);
-    };
-    stable_sort(order, descending(squared));
+    Indices order = numbers_below(measured_.holes.size());
+    stable_sort(order, descending([&](std::size_t i) {
+                  return distance_mm(measured_.holes[i].commanded, place);
+                }));
     return order;
   }
 
@@ -207,8 +158,7 @@ class HoleCandidates {
 
   void add_hole(const model::BedPoint& place) {
     const Indices others = by_distance(place);
-    const model::BedPoint& nearest = measured_.holes[others.back()].commanded;
-    if (std::hypot(nearest.x_mm - place.x_mm, nearest.y_mm - place.y_mm) < kApartMm) return;
+    if (distance_mm(measured_.holes[others.back()].commanded, place) < kApartMm) return;
     const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};
     if (!can_be_cut(hole)) return;
     Candidate candidate{{MeasurementKind::distance, "", "", model::identity_placement(place),
@@ -261,22 +211,17 @@ NextCandidates next_candidates(const Analysis& a) {
   };
   bool chains_read = false;
   for (std::size_t part = 0; part < a.session.parts.size(); ++part) {
+    const ObservationPart& own = a.session.parts[part];
     // Another point is set out on the first sheet.
-    if (a.session.parts[part].reads_chains() && !chains_read) {
-      take(PointCandidates(a, part).take());
+    if (own.reads_chains() && !chains_read) {
+      take(candidate_points(a, part));
       chains_read = true;
     }
-    if (!a.session.parts[part].reads_chains()) take(candidate_distances(a, part));
+    const auto* tape = dynamic_cast<const observation::TapeDistances*>(own.observation.get());
+    if (tape != nullptr) take(HoleCandidates(a, *tape, part).take());
   }
   take(candidate_readings(a.session));
   return {with_observations(a.session, std::move(observations)), std::move(all)};
-}
-
-std::optional<CandidateReadings> candidate_distances(const Analysis& a, std::size_t part) {
-  const auto* tape =
-      dynamic_cast<const observation::TapeDistances*>(a.session.parts[part].observation.get());
-  if (tape == nullptr) return std::nullopt;
-  return HoleCandidates(a, *tape, part).take();
 }
 
 }  // namespace chaintrue::grid::diagnosis

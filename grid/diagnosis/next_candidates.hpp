@@ -3,7 +3,6 @@
 /// All possible next measurements, as a session. Private to grid/diagnosis.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
@@ -30,14 +29,5 @@ struct NextCandidates {
 /// Points over the bed and repeated visits if chains were read, distances and holes if a tape was
 /// used, and readings of the machine.
 NextCandidates next_candidates(const Analysis& analysis);
-
-/// One observation of candidates; `rows` are its own.
-struct CandidateReadings {
-  FollowUp observation;
-  std::vector<Candidate> all;
-};
-/// For a part with distances: those not measured yet, and holes not cut yet with their distances.
-/// Empty if nothing of this kind can be measured.
-std::optional<CandidateReadings> candidate_distances(const Analysis& analysis, std::size_t part);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -101,64 +101,47 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
 
 namespace {
 
-/// The candidates as rows.
-struct Next {
-  const ObservationSet& session;
-  const RegressorSystem& system;
-};
-
-/// The prediction of future rows by a context's causes and a law's amplitudes.
-MatrixXd columns_of(const Analysis& a, const Next& next, const RegressorSet& regressors,
-                    const MatrixXd& law) {
-  const auto causes = std::ssize(regressors);
-  MatrixXd columns = MatrixXd::Zero(next.system.e.size(), causes + law.cols());
-  for (Index k = 0; k < causes; ++k) {
-    const Regressor& own = a.system.regressor(regressors[as_size(k)]);
-    if (const auto g = signature(next.session, a.state, next.system, own)) columns.col(k) = *g;
+/// The prediction of future rows by a model of these causes and a law's amplitudes, with its columns there.
+Alternative expected_with(const Analysis& a, const ObservationSet& session,
+                          const RegressorSystem& next, const LawModel& model,
+                          const RegressorSet& causes, const MatrixXd& law) {
+  MatrixXd columns = MatrixXd::Zero(next.e.size(), std::ssize(causes) + law.cols());
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    if (const auto g = signature(session, a.state, next, a.system.regressor(causes[k])))
+      columns.col(as_index(k)) = *g;
   }
   columns.rightCols(law.cols()) = law;
-  return columns;
-}
-
-/// `law` may be null.
-Alternative expected_with(const Analysis& a, const Next& next, const LawEvidence& evidence,
-                          const WeighedLaw* law) {
-  MatrixXd there(next.system.e.size(), 0);
-  if (law != nullptr) there = law_columns(next.system, evidence.curves[law->curve], {law->at});
-  const RegressorSet& regressors = evidence.sets[law != nullptr ? law->set : evidence.without_set];
-  LawModel::Expected expected =
-      model_with(a, evidence, law).expected_of(next.system, columns_of(a, next, regressors, there));
-  Alternative one;
-  one.mean = std::move(expected.mean);
-  one.covariance = std::move(expected.covariance);
-  return one;
+  return model.expected_of(next, columns);
 }
 
 }  // namespace
 
 std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& found) {
   if (found.laws.empty() || found.laws.front().probability >= kEnough) return {};
-  NextCandidates candidates = next_candidates(a);
-  const auto system = linearise(candidates.session, a.state);
+  NextCandidates next = next_candidates(a);
+  const auto system = linearise(next.session, a.state);
   if (!system) return {};
-  const Next next{candidates.session, *system};
   std::vector<Alternative> alternatives;
+  const auto add = [&](const LawModel& model, const ActsBesides& besides, const MatrixXd& law,
+                       double probability) {
+    Alternative one = expected_with(a, next.session, *system, model, besides.causes, law);
+    one.group = alternatives.size();
+    one.probability = probability;
+    alternatives.push_back(std::move(one));
+  };
   double none = 1.0;
   for (std::size_t k = 0; k < found.laws.size(); ++k) {
-    const LawEvidence& evidence = found.evidence[found.heaviest[k].evidence];
-    alternatives.push_back(expected_with(a, next, evidence, &evidence.laws[found.heaviest[k].law]));
-    alternatives.back().group = k;
-    alternatives.back().probability = found.laws[k].probability;
+    const WeighedLaw& law = found.heaviest[k];
+    add(model_with(a, law), law.with, law.columns(*system), found.laws[k].probability);
     none -= found.laws[k].probability;
   }
   // Averaging over parts of the bed may leave almost no weight for the rest.
   constexpr double kLeastOfNone = 0.01;
-  alternatives.push_back(
-      expected_with(a, next, found.evidence[found.heaviest.front().evidence], nullptr));
-  alternatives.back().group = found.laws.size();
-  alternatives.back().probability = std::max(none, kLeastOfNone);
+  const WeighedLaw& first = found.heaviest.front();
+  add(model_without(a, first), first.without, MatrixXd(system->e.size(), 0),
+      std::max(none, kLeastOfNone));
   normalise(alternatives);
-  return most_telling(alternatives, std::move(candidates.all));
+  return most_telling(alternatives, std::move(next.all));
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "grid/containers.hpp"
@@ -55,11 +54,12 @@ std::optional<std::string> contradiction(const Machine& machine,
     const ExtraReading& reading = readings[i];
     const double stated = observation::predicted_reading(machine, reading);
     const double sigma = std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
-    if (std::abs(reading.value - stated) > kContradiction * sigma) {
+    const double apart = std::abs(reading.value - stated) / sigma;
+    if (apart > kContradiction) {
       return fmt::format(
           "your reading of {} is {:.6g}, but the machine file has {:.6g}: {:.0f} sigma apart. "
           "Measure it again and correct whichever is wrong",
-          name(reading.what), reading.value, stated, std::abs(reading.value - stated) / sigma);
+          name(reading.what), reading.value, stated, apart);
     }
     for (std::size_t k = 0; k < i; ++k) {
       const ExtraReading& other = readings[k];
@@ -100,16 +100,11 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated, const Measure
 
 /// Pairs of holes without a measured distance, the farthest apart first.
 std::vector<std::string> unmeasured(const MeasuredHoles& set, std::size_t most) {
-  std::set<std::pair<std::size_t, std::size_t>> done;
-  for (const HoleDistance& d : set.distances) {
-    if (!d.edge) done.insert(std::minmax(d.from, d.to));
-  }
   std::vector<HoleDistance> left;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
-    for (std::size_t j = i + 1; j < set.holes.size(); ++j) {
-      if (done.count({i, j}) == 0) left.push_back({.from = i, .to = j});
-    }
+    for (std::size_t j = i + 1; j < set.holes.size(); ++j) left.push_back({.from = i, .to = j});
   }
+  std::erase_if(left, [&](const HoleDistance& own) { return is_measured(set, own); });
   stable_sort(left, descending([&](const HoleDistance& own) { return commanded_mm(set, own); }));
   std::vector<std::string> words;
   for (const HoleDistance& d : left) {
@@ -202,6 +197,14 @@ std::optional<std::string> too_few(const Measured& measured) {
 }
 
 }  // namespace
+
+bool is_measured(const MeasuredHoles& set, const HoleDistance& wanted) {
+  return any_of(set.distances, [&](const HoleDistance& d) {
+    if (d.edge != wanted.edge) return false;
+    if (d.edge) return d.from == wanted.from;
+    return std::minmax(d.from, d.to) == std::minmax(wanted.from, wanted.to);
+  });
+}
 
 tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& measured) {
   if (!measured.machine()) {

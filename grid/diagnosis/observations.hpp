@@ -32,6 +32,9 @@ inline constexpr std::size_t kFewestDistances = 8;
 /// This many must remain after rejection.
 inline constexpr std::size_t kFewestGoodDistances = 6;
 
+/// Whether the distance between these holes, or to this edge, was measured.
+bool is_measured(const MeasuredHoles& set, const HoleDistance& wanted);
+
 /// The machine is that of the first file; observations in the order of the files, points first, the
 /// readings of the machine itself last. Fails with a sentence if there is no machine, too little
 /// was measured, or a command is out of reach.

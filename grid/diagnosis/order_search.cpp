@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 #include <utility>
 
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/eigen.hpp"
 #include "grid/observation/length_points.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -61,11 +61,9 @@ Indices by_place(const std::vector<MeasuredPoint>& points) {
 Flags measured_again(const std::vector<MeasuredPoint>& points) {
   Flags again(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t k = 0; k < points.size() && !again[i]; ++k) {
-      again[i] =
-          k != i && std::hypot(points[i].mark.x_mm - points[k].mark.x_mm,
-                               points[i].mark.y_mm - points[k].mark.y_mm) <= kRepeatDistanceMm;
-    }
+    again[i] = any_of(points, [own = &points[i]](const MeasuredPoint& other) {
+      return &other != own && distance_mm(other.mark, own->mark) <= kRepeatDistanceMm;
+    });
   }
   return again;
 }
@@ -135,12 +133,12 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
       causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
-  std::map<std::pair<std::size_t, std::size_t>, const NumberedUnit*> of;
-  for (const NumberedUnit& unit : set->units) of[{unit.part, unit.index}] = &unit;
   const MatrixXd columns = system->g.dense();
   MatrixXd moved = MatrixXd::Zero(a.session.rows, columns.cols());
   for (const NumberedUnit& unit : a.session.units) {
-    const NumberedUnit& own = *of.at({unit.part, unit.index});
+    const NumberedUnit& own = *find_where(set->units, [&](const NumberedUnit& other) {
+      return other.part == unit.part && other.index == unit.index;
+    });
     moved.middleRows(unit.first_row, unit.rows) = columns.middleRows(own.first_row, own.rows);
   }
   result.g = std::move(moved);
@@ -159,6 +157,32 @@ double log_order_factor(const RegressorSystem& columns, const GivenModel& model,
   return log_sum(scores.log_factor) + model.log_odds;
 }
 
+/// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have. \pre one file.
+std::vector<double> order_probabilities(const Measured& measured, const Analysis& a) {
+  const std::vector<VisitingOrder> orders = line_by_line_orders();
+  const MeasuredGrid* grid = grid_without_order(measured);
+  if (grid == nullptr) return std::vector<double>(orders.size(), 0.0);
+  const std::vector<GivenModel> models = leading_models(a, measured_again(grid->points));
+  std::vector<double> result(orders.size(), kMinusInfinity);
+  double tried = 0.0;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    const auto ordered = visited_in(measured, orders[k]);
+    if (!ordered) continue;
+    const RegressorSystem columns = order_columns(a, *ordered);
+    if (columns.regressors.empty()) continue;
+    std::vector<double> terms;
+    for (const GivenModel& model : models)
+      terms.push_back(model.log_weight + log_order_factor(columns, model, a.system.noise_dof));
+    result[k] = log_sum(terms);
+    tried += 1.0;
+  }
+  std::vector<double> all = {a.comparison.log_total};
+  for (double& own : result) all.push_back(own += std::log(kOrderPrior / std::max(1.0, tried)));
+  const double total = log_sum(all);
+  for (double& own : result) own = std::exp(own - total);
+  return result;
+}
+
 }  // namespace
 
 std::string in_words(const VisitingOrderFound& found, const std::string& session) {
@@ -171,32 +195,6 @@ std::string in_words(const VisitingOrderFound& found, const std::string& session
       "The order in which the marks{} were visited was not recorded. The readings show that it "
       "was: {} ({}). If that is wrong, record the order, or give it with --assume-order.",
       session.empty() ? "" : " of " + session, order, percent(found.probability));
-}
-
-std::vector<double> order_probabilities(const Measured& measured, const Analysis& a) {
-  const std::vector<VisitingOrder> orders = line_by_line_orders();
-  std::vector<double> result(orders.size(), 0.0);
-  const MeasuredGrid* grid = grid_without_order(measured);
-  if (grid == nullptr) return result;
-  const std::vector<GivenModel> models = leading_models(a, measured_again(grid->points));
-  std::vector<std::pair<std::size_t, double>> log_weights;
-  for (std::size_t k = 0; k < orders.size(); ++k) {
-    const auto ordered = visited_in(measured, orders[k]);
-    if (!ordered) continue;
-    const RegressorSystem columns = order_columns(a, *ordered);
-    if (columns.regressors.empty()) continue;
-    std::vector<double> terms;
-    for (const GivenModel& model : models)
-      terms.push_back(model.log_weight + log_order_factor(columns, model, a.system.noise_dof));
-    log_weights.emplace_back(k, log_sum(terms));
-  }
-  std::vector<double> all = {a.comparison.log_total};
-  const double share =
-      std::log(kOrderPrior / as_double(std::max<std::size_t>(1, log_weights.size())));
-  for (auto& [order, log_weight] : log_weights) all.push_back(log_weight += share);
-  const double total = log_sum(all);
-  for (const auto& [order, log_weight] : log_weights) result[order] = std::exp(log_weight - total);
-  return result;
 }
 
 std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured,

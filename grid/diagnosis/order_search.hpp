@@ -38,9 +38,6 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
 std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured,
                                                       const DiagnosisOptions& options);
 
-/// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have. \pre one file.
-std::vector<double> order_probabilities(const Measured& measured, const Analysis& analysis);
-
 /// The measurements with the first grid's visits numbered in this order, if no grid has one; empty
 /// if the marks do not have it. Repeated marks come last, by place.
 std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder& order);

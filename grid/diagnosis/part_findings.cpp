@@ -157,11 +157,11 @@ std::vector<PartFinding> session_findings(const Analysis& a,
                                           const std::vector<std::string>& names) {
   std::vector<PartFinding> result;
   if (a.decision.listed.empty()) return result;
-  for (const SessionPosterior& own : a.sessions) {
+  for (const PartPosterior& own : a.sessions) {
     if (own.session >= names.size()) continue;  // direct readings that came with a file
-    PartFinding one = finding_of(a, own.posterior);
+    PartFinding one = finding_of(a, own);
     one.session = names[own.session];
-    one.units = own.units;
+    one.units = a.system.units.size() - one.units;
     result.push_back(std::move(one));
   }
   if (result.size() < 2) result.clear();

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
@@ -58,10 +59,9 @@ PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size
   p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
   if (!state.ordered) return p;
   const bool first = at == a.session.parts[place.part].first_place;
-  const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
   const auto& last = first ? pose.lengths : a.system.places[at - 1].state.reading.pose.lengths;
-  p.direction_left = first ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
-  p.direction_right = first ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
+  p.direction_left = pose.lengths.left_mm < last.left_mm ? -1 : 1;
+  p.direction_right = pose.lengths.right_mm < last.right_mm ? -1 : 1;
   return p;
 }
 
@@ -109,18 +109,16 @@ std::vector<PointPicture> point_pictures(const Analysis& a) {
 std::vector<HolePicture> hole_pictures(const Analysis& a) {
   const State state =
       with_settings(a.session, a.state, a.system.setting + a.estimate.setting_change);
-  std::vector<std::pair<std::size_t, HolePicture>> found;
+  std::map<std::size_t, HolePicture> by_index;
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
     const auto places = tape->placed(state.view(*part));
     for (std::size_t i = 0; i < tape->places().size(); ++i) {
       const observation::Place& hole = tape->places()[i];
-      found.emplace_back(hole.index,
-                         HolePicture{hole.name, hole.mark, places ? (*places)[i].mark : hole.mark});
+      by_index[hole.index] = {hole.name, hole.mark, places ? (*places)[i].mark : hole.mark};
     }
   }
-  sort(found, [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<HolePicture> result;
-  for (auto& [index, picture] : found) result.push_back(std::move(picture));
+  for (auto& [index, picture] : by_index) result.push_back(std::move(picture));
   return result;
 }
 

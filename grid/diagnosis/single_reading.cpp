@@ -9,14 +9,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// The removal of one reading without which nothing would be named, and the reading's position in
-/// the session.
-struct MadeBy {
-  const Removal* removal = nullptr;
-  std::size_t unit = 0;
-};
-
-std::optional<MadeBy> made_by(const ObservationSet& session, const Stability& stability) {
+/// The removal of one reading without which nothing would be named; null if there is none.
+const Removal* made_by(const Stability& stability) {
   const Removal* most = nullptr;
   for (const Removal& removal : stability.removals) {
     const bool one =
@@ -25,21 +19,14 @@ std::optional<MadeBy> made_by(const ObservationSet& session, const Stability& st
     if (!one || !removal.causes.empty() || removal.probability >= kLikelierThanNot) continue;
     if (most == nullptr || removal.support > most->support) most = &removal;
   }
-  if (most == nullptr) return std::nullopt;
-  for (std::size_t u = 0; u < session.units.size(); ++u) {
-    const bool point = session.parts[session.units[u].part].reads_chains();
-    if (point == (most->what == Removal::What::point) && session.units[u].index == most->index) {
-      return MadeBy{most, u};
-    }
-  }
-  return std::nullopt;
+  return most;
 }
 
-std::string refusal_words(const ObservationSet& session, const MadeBy& reading,
+std::string refusal_words(const ObservationSet& session, const Removal& reading, std::size_t unit,
                           const CauseId& cause, double probability) {
-  const bool point = reading.removal->what == Removal::What::point;
-  const std::string what = point ? fmt::format("Point {}", reading.removal->index + 1)
-                                 : "The" + name_of(session, reading.unit).substr(3);
+  const bool point = reading.what == Removal::What::point;
+  const std::string what =
+      point ? fmt::format("Point {}", reading.index + 1) : "The" + name_of(session, unit).substr(3);
   return fmt::format(
       "{} alone suggests a cause ({}, {:.0f} %); without it there is none. A lasting cause shows "
       "in more than one {}, so the {} was rejected: measure it again{}.",
@@ -58,17 +45,19 @@ bool may_be_refused(const Analysis& a) {
 std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stability>& stability,
                                                       Analysis& a) {
   if (!stability || a.options.given_cause || !may_be_refused(a)) return std::nullopt;
-  const auto reading = made_by(a.session, *stability);
-  if (!reading) return std::nullopt;
+  const Removal* reading = made_by(*stability);
+  if (reading == nullptr) return std::nullopt;
+  const auto number = as_size(reading - stability->removals.data());
+  const std::size_t unit = groups_to_leave_out(a.session)[number].units.front();
   const ClassProbability leader = a.decision.marginal.front();
   const CauseId cause = a.decision.classes[leader.index].front();
   Flags excluded(a.session.units.size(), false);
-  excluded[reading->unit] = true;
+  excluded[unit] = true;
   a.comparison =
       compare_models(a.system, excluded,
                      {.kernels = best_kernels(a.comparison), .given_cause = a.options.given_cause});
   decide_by(calibrated_rules(), false, a);
-  return refusal_words(a.session, *reading, cause, leader.probability);
+  return refusal_words(a.session, *reading, unit, cause, leader.probability);
 }
 
 }  // namespace chaintrue::grid::diagnosis

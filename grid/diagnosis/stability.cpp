@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
@@ -17,25 +18,19 @@ constexpr std::size_t kFewestOnLine = 3;  // on average
 /// Log odds if no alternative remains: the largest that a double can represent.
 constexpr double kMostOdds = 700.0;
 
-/// Units that read the chains at one mark.
-Indices units_at_marks(const ObservationSet& session) {
-  Indices result;
-  for (std::size_t u = 0; u < session.units.size(); ++u) {
-    if (session.parts[session.units[u].part].reads_chains()) result.push_back(u);
-  }
-  return result;
-}
-
-const model::MarkPoint& mark_of(const ObservationSet& session, std::size_t unit) {
-  const ObservationPart& part = session.parts[session.units[unit].part];
-  return session.places[part.first_place + unit - part.first_unit].mark;
+bool is_at_mark(const ObservationSet& session, const NumberedUnit& unit) {
+  return session.parts[unit.part].reads_chains();
 }
 
 /// Runs of points along a coordinate; empty if the marks are not in lines.
 std::vector<LeftOut> lines_along(const ObservationSet& session, Removal::What what,
                                  double model::MarkPoint::*coordinate) {
-  const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
-  Indices order = units_at_marks(session);
+  const auto at = [&](std::size_t u) {
+    const ObservationPart& part = session.parts[session.units[u].part];
+    return session.places[part.first_place + u - part.first_unit].mark.*coordinate;
+  };
+  Indices order = numbers_below(session.units.size());
+  std::erase_if(order, [&](std::size_t u) { return !is_at_mark(session, session.units[u]); });
   stable_sort(order, ascending(at));
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -44,16 +39,8 @@ std::vector<LeftOut> lines_along(const ObservationSet& session, Removal::What wh
     lines.back().at_mm += at(order[k]);
   }
   if (lines.size() < kFewestLines || order.size() < kFewestOnLine * lines.size()) return {};
-  for (LeftOut& line : lines) {
-    line.at_mm /= as_double(line.units.size());
-    sort(line.units);
-  }
+  for (LeftOut& line : lines) line.at_mm /= as_double(line.units.size());
   return lines;
-}
-
-void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
-  sort(more, ascending(&LeftOut::index));
-  append_all(groups, more);
 }
 
 /// Whether a model agrees with the verdict: every cause named, or one of the set.
@@ -95,29 +82,21 @@ std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session) {
 }
 
 std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
-  std::vector<LeftOut> groups;
-  std::vector<LeftOut> points;
-  for (const std::size_t u : units_at_marks(session)) {
-    points.push_back({Removal::What::point, session.units[u].index, 0.0, {u}});
+  using What = Removal::What;
+  std::vector<LeftOut> groups = holes_to_leave_out(session);
+  for (std::size_t u = 0; u < session.units.size(); ++u) {
+    const NumberedUnit& unit = session.units[u];
+    groups.push_back(
+        {is_at_mark(session, unit) ? What::point : What::distance, unit.index, 0.0, {u}});
   }
-  add_by_index(std::move(points), groups);
-  for (const auto& [what, coordinate] : {std::pair(Removal::What::column, &model::MarkPoint::x_mm),
-                                         std::pair(Removal::What::row, &model::MarkPoint::y_mm)}) {
-    const auto lines = lines_along(session, what, coordinate);
-    append_all(groups, lines);
-  }
-  std::vector<LeftOut> distances;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
-    for (std::size_t k = 0; k < tape->units().size(); ++k) {
-      distances.push_back(
-          {Removal::What::distance, tape->units()[k].index, 0.0, {part->first_unit + k}});
-    }
-  }
-  add_by_index(std::move(distances), groups);
-  add_by_index(holes_to_leave_out(session), groups);
+  append_all(groups, lines_along(session, What::column, &model::MarkPoint::x_mm));
+  append_all(groups, lines_along(session, What::row, &model::MarkPoint::y_mm));
   std::erase_if(groups, [&](const LeftOut& group) {
     return session.units.size() - group.units.size() < session.fewest_units;
   });
+  sort(groups, ascending([](const LeftOut& group) {
+         return std::tuple(group.what, group.index, group.at_mm);
+       }));
   return groups;
 }
 

@@ -3,6 +3,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
+#include "grid/diagnosis/other_places.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/eigen.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
@@ -22,7 +23,7 @@ VectorXd placed(RegressorSystem system, const VectorXd& left) {
   system.g = RegressorColumns(system.e.size());
   system.e = left;
   const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}).front();
-  return estimate(system, marginalise_rows(system, outliers), {}, -1).left;
+  return left_by(KeptRows(system, outliers), system.by_setting, system.sigma, left);
 }
 
 /// Residuals of the second session with the first one's model, before placing its sheet.
@@ -40,14 +41,7 @@ VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet&
     const auto g = signature(to, state, system, d);
     if (g) left -= *g * model.coefficient(as_index(k));
   }
-  if (model.discrepancy_weights.size() > 0) {
-    for (const SystemUnit& unit : system.units) {
-      const SystemPlace& place = system.places[unit.places.front().place];
-      left.segment<2>(unit.first_row) -=
-          unit.whitening * discrepancy_at(a.system, marginalised_system(a), model, place);
-    }
-  }
-  return left;
+  return left - pattern_at(a, model, system);
 }
 
 Indices block_numbers(const ObservationSet& session) {

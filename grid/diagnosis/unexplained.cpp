@@ -34,11 +34,10 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
   const double eighths = *field.direction_rad / (0.25 * std::numbers::pi);
   const long nearest = std::lround(eighths);
   if (std::abs(eighths - as_double(nearest)) > 0.4) return Enters::mixed;
-  if (field.entry == FieldEntry::tool) {
-    return nearest % 2 != 0 ? Enters::mixed : nearest % 4 == 0 ? Enters::x : Enters::y;
-  }
-  constexpr std::array kOfChains = {Enters::left, Enters::equal, Enters::right, Enters::opposite};
-  return kOfChains[as_size(nearest % 4)];
+  using enum Enters;
+  constexpr std::array kOfTool = {x, mixed, y, mixed};
+  constexpr std::array kOfChains = {left, equal, right, opposite};
+  return (field.entry == FieldEntry::tool ? kOfTool : kOfChains)[as_size(nearest % 4)];
 }
 
 Coordinate argument_of(const DiscrepancyKernel& kernel) {
@@ -158,8 +157,8 @@ MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
   const MatrixXd design = linear::scaled_columns(unknowns.design, unknowns.sigma);
   const Index n = design.rows();
   const Index shared = a.system.nuisances;
-  const auto by_nuisance = design.middleCols(a.system.by_setting.cols() - shared, shared);
-  const linear::Cholesky normal(linear::one_plus_gram(design));
+  const Index first = a.system.by_setting.cols() - shared;
+  const auto by_nuisance = design.middleCols(first, shared);
   Random random(a.options.seed, stream);
   MatrixXd z(n, draws);
   VectorXd u(shared);
@@ -168,13 +167,11 @@ MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
     for (Index q = 0; q < shared; ++q) u(q) = random.normal();
     linear::add_product(z.col(draw), 1.0, by_nuisance, u);
   }
-  const MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
-  linear::add_product(z, -1.0, design, taken);
-  if (shared > 0) {
-    linear::add_product(z, 1.0, by_nuisance,
-                        taken.middleRows(a.system.by_setting.cols() - shared, shared));
-  }
-  return z;
+  // What is left, then minus the unknowns.
+  const MatrixXd fitted = LowRankNoise(design).half_solve(z);
+  MatrixXd left = fitted.topRows(n);
+  linear::add_product(left, -1.0, by_nuisance, fitted.middleRows(n + first, shared));
+  return left;
 }
 
 /// With V of the noise in the readings: are neighbours more alike, e'V^-1 K V^-1 e / e'V^-1 e, than in fitted noise?
@@ -195,42 +192,27 @@ double p_of_structure(const Analysis& a) {
   return (as_double(above) + 1.0) / (kLeftOverDraws + 1.0);
 }
 
-/// If coordinates explain the same, the first is named.
-constexpr Coordinate kAlong[] = {Coordinate::angle_left,
-                                 Coordinate::angle_right,
-                                 Coordinate::length_left,
-                                 Coordinate::length_right,
-                                 Coordinate::tension_left,
-                                 Coordinate::tension_right,
-                                 Coordinate::x,
-                                 Coordinate::y,
-                                 Coordinate::visit};
-
 /// Share of the squared residual that a quartic along the coordinate explains in either chain,
 /// minus the share of noise that as many terms explain.
 double share_along(const Analysis& a, Coordinate coordinate) {
-  const Flags& outliers = marginalised_system(a).outliers;
-  std::vector<double> t;
-  std::vector<Vector2d> chain;
-  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
-    const SystemUnit& unit = a.system.units[u];
-    if (outliers[u] || !unit.reads_chains) continue;
-    t.push_back(value_at(a.system.places[unit.places.front().place], coordinate));
-    chain.push_back(unit.unwhitened(a.estimate.left));
-  }
-  if (t.empty()) return 0.0;
-  const auto [low, high] = minmax_element(t);
-  if (!(*high > *low)) return 0.0;
-  const auto n = std::ssize(t);
-  MatrixXd basis(n, kDegree + 1);
+  const Indices units = units_of_error(a);
+  const auto n = std::ssize(units);
+  if (n == 0) return 0.0;
+  ArrayXd t(n);
   MatrixXd values(n, 2);
   for (Index i = 0; i < n; ++i) {
-    const double x = 2.0 * (t[as_size(i)] - *low) / (*high - *low) - 1.0;
-    basis(i, 0) = 1.0;
-    basis(i, 1) = x;
-    for (int k = 2; k <= kDegree; ++k) basis(i, k) = 2.0 * x * basis(i, k - 1) - basis(i, k - 2);
-    values.row(i) = chain[as_size(i)].transpose();
+    const SystemUnit& unit = a.system.units[units[as_size(i)]];
+    t(i) = value_at(a.system.places[unit.places.front().place], coordinate);
+    values.row(i) = unit.unwhitened(a.estimate.left).transpose();
   }
+  const double low = t.minCoeff();
+  const double range = t.maxCoeff() - low;
+  if (!(range > 0.0)) return 0.0;
+  MatrixXd basis = MatrixXd::Ones(n, kDegree + 1);
+  const ArrayXd x = 2.0 * (t - low) / range - 1.0;
+  basis.col(1) = x;
+  for (int k = 2; k <= kDegree; ++k)
+    basis.col(k) = 2.0 * x * basis.col(k - 1).array() - basis.col(k - 2).array();
   MatrixXd rest = values;
   linear::add_product(rest, -1.0, basis, linear::least_squares(basis, values));
   const double of_noise = as_double(n - kDegree - 1) / as_double(n);
@@ -245,8 +227,11 @@ LeftOver left_over(const Analysis& a) {
   if (a.decision.best_discrepancy >= 0) result.signal_to_noise = pattern_of(a).signal_to_noise;
   // A distance joins two places and is a function of neither.
   if (result.p_value >= kFalseAlarm || !a.session.reads_chains()) return result;
-  for (const Coordinate coordinate : kAlong) {
-    const bool of_order = coordinate == Coordinate::visit;
+  using enum Coordinate;
+  // If coordinates explain the same, the first is named.
+  for (const Coordinate coordinate : {angle_left, angle_right, length_left, length_right,
+                                      tension_left, tension_right, x, y, visit}) {
+    const bool of_order = coordinate == visit;
     if (of_order && !a.session.ordered()) continue;
     const double share = share_along(a, coordinate);
     // Where the bed was visited in order, time and place run together: place is the simpler guess.

@@ -118,18 +118,17 @@ std::string claimed_law_in_words(const Diagnosis& d) {
          given_law_words(d);
 }
 
-std::vector<std::string> outliers_in_words(const Diagnosis& d) {
-  std::vector<std::string> result;
-  for (const Outlier& bad : d.outliers) result.push_back(outlier_words(d, bad));
-  return result;
+std::string outliers_in_words(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const Outlier& bad : d.outliers) all.push_back(outlier_words(d, bad));
+  return joined(all, "and");
 }
 
 std::string only_outliers_in_words(const Diagnosis& d) {
   const Vocabulary& words = vocabulary_of(d);
   return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the {} fits.",
-                     d.outliers.size(), words.one_each, words.bad,
-                     joined(outliers_in_words(d), "and"), d.outliers.size() == 1 ? "it" : "them",
-                     words.whole);
+                     d.outliers.size(), words.one_each, words.bad, outliers_in_words(d),
+                     d.outliers.size() == 1 ? "it" : "them", words.whole);
 }
 
 void say_remedies(Diagnosis& d) {

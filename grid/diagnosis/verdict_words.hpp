@@ -18,8 +18,8 @@ std::string causes_in_words(const Diagnosis& diagnosis);
 /// The claimed law and its effect on the names; empty if none is claimed.
 std::string claimed_law_in_words(const Diagnosis& diagnosis);
 
-/// A sentence for each outlier.
-std::vector<std::string> outliers_in_words(const Diagnosis& diagnosis);
+/// "a; b and c": the outliers.
+std::string outliers_in_words(const Diagnosis& diagnosis);
 /// The sentence that only these are wrong.
 std::string only_outliers_in_words(const Diagnosis& diagnosis);
 

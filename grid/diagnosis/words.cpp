@@ -71,7 +71,7 @@ std::string bad_words(const Diagnosis& d) {
   const std::vector<std::string> off = settings_off(d);
   if (off.empty()) return only_outliers_in_words(d);
   return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.", d.outliers.size(),
-                     name(d.observations), joined(outliers_in_words(d), "and"),
+                     name(d.observations), outliers_in_words(d),
                      d.outliers.size() == 1 ? "it" : "them",
                      off.size() == 1 ? "a setting is" : "settings are", joined(off, "and"));
 }
@@ -156,7 +156,7 @@ void advise(Diagnosis& d) {
                             d.observations == Observations::points      ? "point "
                             : d.observations == Observations::distances ? "the distance "
                                                                         : "",
-                            joined(outliers_in_words(d), "and")));
+                            outliers_in_words(d)));
   }
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off) continue;

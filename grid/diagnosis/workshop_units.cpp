@@ -23,6 +23,7 @@ struct Unit {
   /// For a negative value, {} its absolute value; empty if `words` show the sign.
   std::string_view negative{};
   std::string_view one{};  ///< for 1 and -1, if a noun is counted
+  bool is_whole = false;
 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -66,11 +67,11 @@ constexpr Unit kUnits[] = {
      "sets in at {} degrees above the horizontal"},
     {"phase_rad", kDegrees, "phase {} degrees"},
     {"rate_mm_per_visit", 1.0, "{} mm per visit"},
-    {"links", 1.0, "{} links", "", "{} link"},
-    {"teeth", 1.0, "{} teeth", "", "{} tooth"},
+    {"links", 1.0, "{} links", "", "{} link", true},
+    {"teeth", 1.0, "{} teeth", "", "{} tooth", true},
     {"shift_mm", 1.0, "{} mm too much read", "{} mm too little read"},
-    {"first_visit", 1.0, "from visit {} on"},
-    {"visit", 1.0, "at visit {}"},
+    {"first_visit", 1.0, "from visit {} on", "", "", true},
+    {"visit", 1.0, "at visit {}", "", "", true},
     {"amplitude_mm", 1.0, "{} mm"},
     {"half_width_mm", 1.0, "{} mm to either side"},
     {"distance_mm", 1.0, "{} mm"},
@@ -97,14 +98,14 @@ double two_digits(double value) {
   return step * std::round(value / step);
 }
 
-/// Rounded to the sigma's first two digits; a value without a sigma to its own first two digits.
-std::string with_sigma(double value, double sigma) {
+}  // namespace
+
+std::string with_sigma(double value, double sigma, int most_digits) {
   if (!(sigma > 0.0)) return fmt::format("{:g}", two_digits(value));
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6);
+  const int digits =
+      std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, most_digits);
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
 }
-
-}  // namespace
 
 NameAndUnit parameter_words(std::string_view parameter) {
   std::size_t at = std::string_view::npos;
@@ -120,16 +121,15 @@ std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& est
   const Unit* unit = unit_for(*cause.effect, estimate.parameter);
   if (unit == nullptr)
     return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
-  const bool whole = unit->parameter == "links" || unit->parameter == "teeth" ||
-                     (unit->parameter.ends_with("visit") && !unit->parameter.starts_with("rate"));
   const bool reversed = estimate.value < 0.0 && !unit->negative.empty();
   const double value = reversed ? -estimate.value : estimate.value;
   const bool is_one = !unit->one.empty() && std::abs(value) == 1.0;
   return fmt::format(fmt::runtime(reversed ? unit->negative
                                   : is_one ? unit->one
                                            : unit->words),
-                     whole ? fmt::format("{:g}", value)
-                           : with_sigma(unit->factor * value, unit->factor * estimate.sigma));
+                     unit->is_whole
+                         ? fmt::format("{:g}", value)
+                         : with_sigma(unit->factor * value, unit->factor * estimate.sigma));
 }
 
 std::string sizes_in_words(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {

@@ -18,6 +18,10 @@ struct NameAndUnit {
 };
 NameAndUnit parameter_words(std::string_view parameter);
 
+/// Rounded to the sigma's first two digits, at most so many behind the point; a value without a sigma to its own
+/// first two digits.
+std::string with_sigma(double value, double sigma, int most_digits = 6);
+
 /// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and the effect, which
 /// may elongate links or a belt.
 std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& estimate);

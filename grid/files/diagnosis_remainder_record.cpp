@@ -111,7 +111,7 @@ auto law_record() {
         if (at.child("from").clean() && at.child("to").clean() && !(law.from < law.to))
           at.child("to").expect("more than from");
         if (!at.child("shape").clean() || !at.child("parameters").clean()) return;
-        const std::size_t count = diagnosis::parameter_count(law.shape);
+        const std::size_t count = diagnosis::parameter_names(law.shape, law.of).size();
         if (law.parameters.size() != count)
           at.child("parameters").expect(fmt::format("{} of a law of this shape", count));
       });

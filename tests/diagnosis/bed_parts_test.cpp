@@ -19,7 +19,6 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-using testing::Not;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
@@ -43,7 +42,7 @@ Analysis analysed(const MeasuredGrid& grid, bool averaged = true) {
 }
 
 std::vector<BedPart> parts_of_all(const Analysis& a) {
-  return bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+  return bed_parts(a.system, a.session.fewest_units);
 }
 
 double share_of_patterns(const ModelComparison& comparison) {
@@ -81,17 +80,9 @@ TEST(BedParts, EachHasAQuarterOfTheReadingsOnOneSide) {
   EXPECT_LT(*std::max_element(times.begin(), times.end()), 16);  // none is left out of all
 }
 
-TEST(BedParts, UseTheReadingsThatCount) {
-  const Analysis a = analysed(session_of({}, 1));
-  std::vector<bool> excluded = nothing_rejected(a.system);
-  excluded[3] = true;
-  for (const BedPart& part : bed_parts(a.system, excluded, a.session.fewest_units))
-    EXPECT_THAT(part.units, Not(Contains(3U)));
-}
-
 TEST(BedParts, NeedEnoughReadings) {
   const Analysis a = analysed(session_of({}, 1));
-  EXPECT_TRUE(bed_parts(a.system, nothing_rejected(a.system), a.system.units.size()).empty());
+  EXPECT_TRUE(bed_parts(a.system, a.system.units.size()).empty());
 }
 
 // For marks on two columns, what is left without one side is on one line for most of the directions.
@@ -165,7 +156,7 @@ TEST(Averaging, EqualsComparisonsOfEachPart) {
     // As if the rest of the bed were a session.
     RegressorSystem split = a.system;
     for (const std::size_t u : part.left_out.units) split.units[u].observation = 1;
-    const PartPosterior shortcut = session_posteriors(split, 1, whole.comparison).front().posterior;
+    const PartPosterior shortcut = session_posteriors(split, 1, whole.comparison).front();
     for (const auto& [cause, p] : shortcut.causes) by_cause[name_of(cause)].first += p / 16.0;
     for (const CandidateModel& model : own.models) {
       for (const int k : model.regressors) {
