@@ -16,15 +16,8 @@ std::optional<FileIdentity> identity_from(const struct stat& status) {
                       static_cast<std::uint64_t>(status.st_ino)};
 }
 
-struct ReadLog {
-  std::mutex mutex;
-  std::vector<FileIdentity> files;
-};
-
-ReadLog& read_log() {
-  static ReadLog log;
-  return log;
-}
+std::mutex log_mutex;
+std::vector<FileIdentity> read_log;
 
 }  // namespace
 
@@ -43,21 +36,18 @@ std::optional<FileIdentity> identity_of_descriptor(int descriptor) {
 void note_as_read(int descriptor) {
   const auto identity = identity_of_descriptor(descriptor);
   if (!identity) return;
-  ReadLog& log = read_log();
-  const std::scoped_lock lock(log.mutex);
-  if (!contains(log.files, *identity)) log.files.push_back(*identity);
+  const std::scoped_lock lock(log_mutex);
+  if (!contains(read_log, *identity)) read_log.push_back(*identity);
 }
 
 void forget_files_read() {
-  ReadLog& log = read_log();
-  const std::scoped_lock lock(log.mutex);
-  log.files.clear();
+  const std::scoped_lock lock(log_mutex);
+  read_log.clear();
 }
 
 std::vector<FileIdentity> files_read() {
-  ReadLog& log = read_log();
-  const std::scoped_lock lock(log.mutex);
-  return log.files;
+  const std::scoped_lock lock(log_mutex);
+  return read_log;
 }
 
 }  // namespace chaintrue::grid::files
