@@ -10,9 +10,7 @@
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
 #include "model/effects/effect.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -95,34 +93,31 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   return residual_scatter_chart(chart);
 }
 
-double length_mm(const PointPicture& point, Side chain) { return point.lengths[chain]; }
-
 std::vector<ChartRow> length_charts(const Diagnosis& found) {
   const model::Sprocket& sprocket = found.extended_machine.sprocket;
   const double turn_mm = sprocket.teeth * sprocket.pitch_mm;
   std::vector<ChartRow> rows;
   for (const Side chain : model::kSides) {
-    Scatter plain{.title = fmt::format("Against the {} chain's length", chain_name(chain)),
-                  .caption = "",
-                  .x_title = "chain length, mm",
-                  .x = length_mm,
-                  .chain = chain};
-    Scatter folded{.title = fmt::format("Over one sprocket turn ({:g} mm)", turn_mm),
-                   .caption = "",
-                   .x_title = "mm past a full turn",
-                   .x =
-                       [turn_mm](const PointPicture& point, Side side) {
-                         const double length = length_mm(point, side);
-                         return length - turn_mm * std::floor(length / turn_mm);
-                       },
-                   .chain = chain};
-    if (chain == Side::right) {
-      plain.caption =
-          "A slope means a chain that is too long or short, a step a skipped link. The line joins "
-          "the means of the calibrated dots.";
-      folded.caption = "A wave means an eccentric sprocket.";
-    }
-    rows.push_back({{scatter_chart(found, plain), scatter_chart(found, folded)}});
+    const bool is_last = chain == Side::right;
+    rows.push_back(
+        {{scatter_chart(
+              found,
+              {.title = fmt::format("Against the {} chain's length", chain_name(chain)),
+               .caption = is_last ? "A slope means a chain that is too long or short, a step a "
+                                    "skipped link. The line joins the means of the calibrated dots."
+                                  : "",
+               .x_title = "chain length, mm",
+               .x = [](const PointPicture& point, Side side) { return point.lengths[side]; },
+               .chain = chain}),
+          scatter_chart(found, {.title = fmt::format("Over one sprocket turn ({:g} mm)", turn_mm),
+                                .caption = is_last ? "A wave means an eccentric sprocket." : "",
+                                .x_title = "mm past a full turn",
+                                .x =
+                                    [turn_mm](const PointPicture& point, Side side) {
+                                      const double length = point.lengths[side];
+                                      return length - turn_mm * std::floor(length / turn_mm);
+                                    },
+                                .chain = chain})}});
   }
   return rows;
 }

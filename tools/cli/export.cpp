@@ -14,12 +14,8 @@
 #include "grid/files/map_file.hpp"
 #include "grid/plotter/settings_to_paste.hpp"
 #include "model/effects/catalogue.hpp"
-#include "tools/cli/anchors_document.hpp"
 #include "tools/cli/export_numbers.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/target.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -10,7 +10,6 @@
 #include "grid/map/map_in_frame.hpp"
 #include "grid/map/straight_settings.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/option_checks.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

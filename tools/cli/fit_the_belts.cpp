@@ -10,9 +10,7 @@
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/random.hpp"
-#include "tools/cli/anchors_document.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/made_by.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/follow_up.hpp"
+#include "tools/cli/sheet.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "grid/containers.hpp"
-#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/fields.hpp"
 
 namespace chaintrue::cli {

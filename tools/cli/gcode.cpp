@@ -5,8 +5,6 @@
 #include <string>
 
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/option_checks.hpp"
-#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

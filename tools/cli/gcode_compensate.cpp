@@ -11,10 +11,9 @@
 
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/made_by.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/path_report.hpp"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/plan_after.hpp"
 
 #include <fmt/format.h>
 
@@ -12,9 +11,7 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
-#include "tools/cli/follow_up.hpp"
-#include "tools/cli/made_by.hpp"
-#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/sheet.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/svg.hpp"
 #include "tools/report/embedded.hpp"
 
