@@ -134,7 +134,7 @@ Outlines outlines_of(const model::CutSquare& square, const SquareTask& task) {
     const BedPoint &cut = square.cut[i], &commanded = square.commanded[i];
     errors.emplace_back(cut.x_mm - commanded.x_mm - square.offset.x_mm,
                         cut.y_mm - commanded.y_mm - square.offset.y_mm);
-    largest = std::max(largest, std::hypot(errors[i].x(), errors[i].y()));
+    largest = std::max(largest, errors[i].norm());
   }
   Outlines outlines;
   // A round factor; a perfect square, up to rounding, is not magnified.

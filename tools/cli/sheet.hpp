@@ -5,6 +5,7 @@
 /// same bytes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -175,6 +176,16 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
 
 // The next measurements of a diagnosis, as a list for the workshop and as lines for the grid's
 // file; those for the holes' file are in follow_up_holes.hpp.
+/// The number of the next visit; empty where visits are not numbered.
+template <class Points>
+std::optional<int> next_visit(const Points& points) {
+  std::optional<int> next;
+  for (const auto& point : points) {
+    if (point.order) next = std::max(next.value_or(0), *point.order + 1);
+  }
+  return next;
+}
+
 /// Numbered sentences, each with its expected probability.
 std::string follow_up_list(const Diagnosis& found);
 
