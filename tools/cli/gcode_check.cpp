@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -105,8 +106,15 @@ int check_compensation(const GcodeMachine& machine, const GcodeOptions& options,
   return code;
 }
 
-/// `machine` is null without a map.
-int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
+/// None without a map.
+std::unique_ptr<const GcodeMachine> machine_if_any(const GcodeOptions& options) {
+  return options.map.empty() ? nullptr : std::make_unique<const GcodeMachine>(options);
+}
+
+}  // namespace
+
+int run_gcode_check(const GcodeOptions& options) {
+  const auto machine = machine_if_any(options);
   const GcodeText text(options.program);
   const gcode::Firmware* firmware = stated_firmware(options.controller);
   const int steps = 1 + (firmware != nullptr ? 1 : 0) + (options.map.empty() ? 0 : 1);
@@ -138,7 +146,8 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   return code;
 }
 
-int write_lengths(const Target& target, const GcodeOptions& options) {
+int run_gcode_lengths(const GcodeOptions& options) {
+  const Target target = open_target(options);
   const GcodeText text(options.program);
   const double rows = rows_of_lengths(options, text);
   auto source = text.open();
@@ -179,18 +188,6 @@ int write_lengths(const Target& target, const GcodeOptions& options) {
   return code;
 }
 
-}  // namespace
-
-int run_gcode_check(const GcodeOptions& options) {
-  if (options.map.empty()) return check_program(nullptr, options);
-  const GcodeMachine machine(options);
-  return check_program(&machine, options);
-}
-
-int run_gcode_lengths(const GcodeOptions& options) {
-  return write_lengths(open_target(options), options);
-}
-
 // chaintrue gcode explain.
 namespace {
 
@@ -207,6 +204,7 @@ struct LineEvents final : gcode::Sink {
   std::string words;
 };
 
+/// `machine` is null without a map.
 void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
   const BedPoint target{move.to.x_mm, move.to.y_mm};
   fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n",
@@ -232,8 +230,10 @@ void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
              command->x_mm - target.x_mm, command->y_mm - target.y_mm);
 }
 
-/// `machine` is null without a map.
-int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
+}  // namespace
+
+int run_gcode_explain(const GcodeOptions& options) {
+  const auto machine = machine_if_any(options);
   const std::size_t colon = options.program.rfind(':');
   std::size_t line = 0;
   const char* begin = options.program.data() + (colon == std::string::npos ? 0 : colon + 1);
@@ -263,18 +263,10 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   const auto done = gcode::attempt([&] { return program.step(); });
   if (!done) return report(file, done.error());
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
-  for (const gcode::Move& move : events.moves) explain_move(move, machine);
+  for (const gcode::Move& move : events.moves) explain_move(move, machine.get());
   print_state("after:");
   say_next(with_map_words(options, {"gcode", "check", file}));
   return kDone;
-}
-
-}  // namespace
-
-int run_gcode_explain(const GcodeOptions& options) {
-  if (options.map.empty()) return explain_line(nullptr, options);
-  const GcodeMachine machine(options);
-  return explain_line(&machine, options);
 }
 
 }  // namespace chaintrue::cli
