@@ -30,6 +30,13 @@ int exit_code(gcode::ProblemName name) {
   return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
 }
 
+/// \throws InputError, which names what is expected, if it cannot be opened.
+gcode::LineSource lines_of_file(const std::string& path, const char* expected) {
+  auto source = gcode::LineSource::from_file(path);
+  if (!source) refuse(path, "", expected);
+  return std::move(*source);
+}
+
 std::string sentence_of(const std::vector<gcode::Problem>& problems) {
   std::string text;
   for (const gcode::Problem& problem : problems)
@@ -75,10 +82,8 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
 }
 
 gcode::LineSource GcodeText::open() const {
-  if (text_) return gcode::LineSource::from_text(*text_);
-  auto source = gcode::LineSource::from_file(path_);
-  if (!source) refuse(path_, "", "a file that can be read");
-  return std::move(*source);
+  return text_ ? gcode::LineSource::from_text(*text_)
+               : lines_of_file(path_, "a file that can be read");
 }
 
 gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
@@ -117,10 +122,8 @@ Words with_map_words(const GcodeOptions& options, Words words) {
 }
 
 std::string compensated_name(const std::string& program) {
-  const std::filesystem::path path(program);
-  return std::filesystem::path(path)
-      .replace_extension(".true" + path.extension().string())
-      .string();
+  std::filesystem::path path(program);
+  return path.replace_extension(".true" + path.extension().string()).string();
 }
 
 GcodeRefused::GcodeRefused(std::vector<gcode::Problem> found)
@@ -159,10 +162,8 @@ int report(const std::string& file, const gcode::Findings& findings) {
 
 gcode::LineSource written_so_far(files::PendingFile& file) {
   const std::string place = file.flushed();
-  if (place.empty()) return gcode::LineSource::from_text(file.held());
-  auto source = gcode::LineSource::from_file(place);
-  if (!source) refuse(place, "", "room for the whole file");
-  return std::move(*source);
+  return place.empty() ? gcode::LineSource::from_text(file.held())
+                       : lines_of_file(place, "room for the whole file");
 }
 
 namespace {

@@ -228,16 +228,13 @@ std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
                             std::string note) {
     steps.push_back({kind, std::move(what), error.rms_mm, error.maximum_mm, std::move(note)});
   };
-  const bool has_machine = map.machine() != nullptr;
-  if (has_machine) {
+  if (map.machine() != nullptr) {
     add(ErrorStep::Kind::before, "machine file as it was",
         summary_of(contents, &MapPoint::as_stated_mm), "at the measured points");
-  }
-  if (has_machine && has_placed_sheet(contents)) {
-    add(ErrorStep::Kind::before, "sheet found", summary_of(contents, &MapPoint::sheet_placed_mm),
-        "the same, for the best placement of the sheet");
-  }
-  if (has_machine) {
+    if (has_placed_sheet(contents)) {
+      add(ErrorStep::Kind::before, "sheet found", summary_of(contents, &MapPoint::sheet_placed_mm),
+          "the same, for the best placement of the sheet");
+    }
     add(ErrorStep::Kind::after, "map, its own points", summary_of(contents, &MapPoint::mapped_mm),
         "residual of the fit; not a measure of accuracy");
   }

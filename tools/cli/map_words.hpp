@@ -3,8 +3,6 @@
 /// A compensation map's figures, in words and numbers.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,17 +84,11 @@ void require_fit_for_cutting(const std::string& why, bool is_forced);
 /// Rms and maximum of `size_of` over all that are not bad.
 template <class Readings, class Size>
 grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
-  grid::ErrorSummary summary;
-  double squares = 0.0, count = 0.0;
+  std::vector<double> sizes;
   for (const auto& reading : readings) {
-    if (reading.bad) continue;
-    const double size = std::abs(size_of(reading));
-    summary.maximum_mm = std::max(summary.maximum_mm, size);
-    squares += size * size;
-    count += 1.0;
+    if (!reading.bad) sizes.push_back(size_of(reading));
   }
-  if (count > 0.0) summary.rms_mm = std::sqrt(squares / count);
-  return summary;
+  return grid::summary_of(sizes);
 }
 
 using Residual = Eigen::Vector2d grid::MapPoint::*;
