@@ -145,7 +145,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
     MarkPoint mark = marks[i];
     mark.x_mm += draw(position_noise, noise, noise.position_mm);
     mark.y_mm += draw(position_noise, noise, noise.position_mm);
-    if (contains(bad_points, i)) {
+    if (std::binary_search(bad_points.begin(), bad_points.end(), i)) {
       const double direction = slips.uniform(-std::numbers::pi, std::numbers::pi);
       mark.x_mm += spec.bad.size_mm * std::cos(direction);
       mark.y_mm += spec.bad.size_mm * std::sin(direction);
