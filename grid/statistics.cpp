@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include "grid/containers.hpp"
@@ -42,12 +41,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squares / as_double(values.size()));
 }
 
-double rms(const std::vector<Vector2d>& values) {
-  if (values.empty()) return 0.0;
-  double squares = 0.0;
-  for (const Vector2d& value : values) squares += value.squaredNorm();
-  return std::sqrt(squares / (2.0 * as_double(values.size())));
-}
+double rms(const std::vector<Vector2d>& values) { return rms_length(values) / std::sqrt(2.0); }
 
 double rms_length(const std::vector<Vector2d>& values) {
   if (values.empty()) return 0.0;
@@ -58,14 +52,14 @@ double rms_length(const std::vector<Vector2d>& values) {
 
 double log_sum(double a, double b) {
   const double high = std::max(a, b);
-  if (high == -std::numeric_limits<double>::infinity()) return high;
+  if (high == kMinusInfinity) return high;
   return high + std::log1p(std::exp(std::min(a, b) - high));
 }
 
 double log_sum(const std::vector<double>& terms) {
-  double high = -std::numeric_limits<double>::infinity();
+  double high = kMinusInfinity;
   for (const double term : terms) high = std::max(high, term);
-  if (high == -std::numeric_limits<double>::infinity()) return high;
+  if (high == kMinusInfinity) return high;
   double sum = 0.0;
   for (const double term : terms) sum += std::exp(term - high);
   return high + std::log(sum);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/map/check_readings.hpp"
 #include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -24,6 +25,7 @@ struct Proposal {
   VectorXd sigma;  ///< of q
   /// Which of the hypothesis' quantities each q is.
   std::vector<std::size_t> quantity_of_q;
+  std::size_t unit = 0;  ///< of a bad point
 };
 
 /// The effect of a unit of a quantity on the residuals.
@@ -81,49 +83,15 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   for (const model::MechanismChange& change : readings.changes)
     all.push_back(proposal_of(readings, change));
   all.push_back(plain(model::Change::unknown, CheckVerdict::measure_again, prior.unknown));
-  for (const CheckUnit& unit : readings.units) {
-    Proposal bad = plain(model::Change::bad_point, CheckVerdict::measure_again,
-                         prior.bad_point / as_double(readings.units.size()));
+  for (std::size_t u = 0; u < readings.units.size(); ++u) {
+    const CheckUnit& unit = readings.units[u];
+    Proposal& bad = all.emplace_back(plain(model::Change::bad_point, CheckVerdict::measure_again,
+                                           prior.bad_point / as_double(readings.units.size())));
     bad.hypothesis.count = static_cast<int>(unit.index);
     bad.hypothesis.name = unit.name;
-    all.push_back(std::move(bad));
+    bad.unit = u;
   }
   return all;
-}
-
-/// K plus an independent change at every place: kUnknownSigmaMm for each length. A place of a
-/// single unit adds to that unit's noise; other places are shared.
-ReadingCovariance with_unknown(const CheckReadings& readings) {
-  ReadingCovariance k = readings.covariance;
-  std::vector<std::size_t> unit_of;  // of each row
-  for (std::size_t u = 0; u < readings.units.size(); ++u)
-    unit_of.resize(readings.units[u].first_row + readings.units[u].rows, u);
-  std::vector<Eigen::Triplet<double>> shared;
-  Index columns = 0;
-  for (Index length = 0; length < readings.by_length.cols(); ++length) {
-    std::vector<std::pair<Index, double>> conditioned;
-    for (Eigen::SparseMatrix<double>::InnerIterator at(readings.by_length, length); at; ++at)
-      conditioned.emplace_back(at.row(), kUnknownSigmaMm * at.value());
-    if (conditioned.empty()) continue;
-    const std::size_t unit = unit_of[as_size(conditioned.front().first)];
-    if (unit == unit_of[as_size(conditioned.back().first)]) {
-      const auto first = as_index(readings.units[unit].first_row);
-      for (const auto& [i, by_i] : conditioned) {
-        for (const auto& [j, by_j] : conditioned) k.own[unit](i - first, j - first) += by_i * by_j;
-      }
-      continue;
-    }
-    for (const auto& [i, by_i] : conditioned) shared.emplace_back(i, columns, by_i);
-    ++columns;
-  }
-  if (columns == 0) return k;
-  for (Index column = 0; column < k.shared.cols(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator at(k.shared, column); at; ++at)
-      shared.emplace_back(at.row(), columns + column, at.value());
-  }
-  k.shared.resize(k.rows(), columns + k.shared.cols());
-  k.shared.setFromTriplets(shared.begin(), shared.end());
-  return k;
 }
 
 /// log of evidence times prior of each proposal, K being factored once. A hypothesis adds a few
@@ -139,12 +107,13 @@ class Evidence {
         pulled_(nothing_.pulled(residual_)),
         precision_(nothing_.precision_of_units()) {}
 
-  /// Stores the posterior of q; `unit` is the bad one, if that is the hypothesis.
-  double weigh(Proposal& proposal, std::size_t unit) const {
-    const double prior = std::log(proposal.prior);
-    if (proposal.hypothesis.what == model::Change::unknown) return prior + of_unknown();
-    if (proposal.hypothesis.what == model::Change::bad_point) return prior + of_bad_unit(unit);
-    return prior + of_change(proposal);
+  /// Stores the posterior of q.
+  double weigh(Proposal& proposal) const {
+    const model::Change what = proposal.hypothesis.what;
+    return std::log(proposal.prior) + (what == model::Change::unknown ? of_unknown()
+                                       : what == model::Change::bad_point
+                                           ? of_bad_unit(proposal.unit)
+                                           : of_change(proposal));
   }
 
  private:
@@ -156,9 +125,11 @@ class Evidence {
     return -log_root - 0.5 * (n + nu) * std::log1p(square / nu);
   }
 
-  /// Every place may have changed independently.
+  /// Every place may have changed independently, by kUnknownSigmaMm in each length.
   double of_unknown() const {
-    const FactoredCovariance all(with_unknown(readings_));
+    ReadingCovariance covariance = readings_.covariance;
+    add_errors(kUnknownSigmaMm * readings_.by_length, covariance);
+    const FactoredCovariance all(covariance);
     return log_density(all.log_root_det(), all.conditioned(readings_.residual_mm).squaredNorm());
   }
 
@@ -219,17 +190,11 @@ std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings) {
   std::vector<Proposal> proposals = proposals_of(readings);
   std::vector<double> weights;
   const Evidence evidence(readings);
-  std::size_t unit = 0;
-  for (Proposal& proposal : proposals) {
-    weights.push_back(evidence.weigh(proposal, unit));
-    unit += proposal.hypothesis.what == model::Change::bad_point ? 1 : 0;
-  }
-  const double most = *max_element(weights);
-  double sum = 0.0;
-  for (double& weight : weights) sum += weight = std::exp(weight - most);
+  for (Proposal& proposal : proposals) weights.push_back(evidence.weigh(proposal));
+  const double of_all = log_sum(weights);
   std::vector<CheckHypothesis> hypotheses;
   for (std::size_t i = 0; i < proposals.size(); ++i) {
-    proposals[i].hypothesis.probability = weights[i] / sum;
+    proposals[i].hypothesis.probability = std::exp(weights[i] - of_all);
     hypotheses.push_back(std::move(proposals[i].hypothesis));
   }
   return hypotheses;

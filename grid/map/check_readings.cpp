@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -24,6 +23,7 @@
 #include "grid/observation/observation.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_changes.hpp"
 #include "model/reading_model.hpp"
@@ -206,13 +206,13 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   return part;
 }
 
-/// The map at N places of new readings: d(lengths)/d(mark), and the covariance F F' of its lengths,
-/// jointly or place by place.
+/// The map at N places of new readings: d(lengths)/d(mark), and the uncertainty of its lengths, one
+/// sigma a column, jointly or place by place.
 struct MapAt {
   std::vector<model::ChainLengths> lengths;
   std::vector<Matrix2d> by_mark;
-  MatrixXd factor;                   ///< F, 2 N x any
-  std::vector<Matrix2d> covariance;  ///< for each place; empty if F contains it
+  MatrixXd factor;                  ///< F, 2 N x any
+  Eigen::SparseMatrix<double> own;  ///< of each place by itself where F has none, 2 N x 2 N
   /// 2 N x p, by the settings of the machine; no columns for a map without one.
   MatrixXd by_parameter;
 };
@@ -229,6 +229,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   constexpr auto& kOfMachine = model::kMachineSettings;
   at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
   at.factor.resize(2 * count, is_joint ? surface->covariance_factor.cols() : 0);
+  at.own.resize(2 * count, 2 * count);
   std::optional<model::ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
   for (Index i = 0; i < count; ++i) {
@@ -246,7 +247,11 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
       // The rest is what the map's own continuation changes.
       at.factor.middleRows<2>(2 * i) = found->spread_mm.leftCols(at.factor.cols());
     } else {
-      at.covariance.push_back(map.query(mark)->covariance);
+      const MatrixXd root = linear::covariance_root(map.query(mark)->covariance);
+      for (const Index error : {0, 1}) {
+        for (const Index side : {0, 1})
+          at.own.insert(2 * i + side, 2 * i + error) = root(side, error);
+      }
     }
     if (surface == nullptr) continue;
     at.by_parameter.middleRows<2>(2 * i) = observation::lengths_by_setting(
@@ -278,9 +283,11 @@ class Gathered {
     readings_.by_length.resize(rows, 2 * places);
     readings_.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
     ReadingCovariance& covariance = readings_.covariance;
-    covariance.shared.resize(rows, shared_columns_);
-    covariance.shared.setFromTriplets(shared_.begin(), shared_.end());
     covariance.of_map = narrowed(readings_.by_length * at_.factor);
+    Eigen::SparseMatrix<double> errors(rows, errors_.empty() ? 0 : errors_.back().col() + 1);
+    errors.setFromTriplets(errors_.begin(), errors_.end());
+    add_errors(errors, covariance);
+    add_errors(readings_.by_length * at_.own, covariance);
     readings_.by_parameter = readings_.by_length * at_.by_parameter;
     readings_.lengths_mm.resize(2 * places);
     for (Index i = 0; i < places; ++i)
@@ -319,19 +326,18 @@ class Gathered {
       const std::string name = fmt::format("point {}{}", point.index + 1, of);
       for (const char* side : {"left", "right"})
         readings_.names.push_back(fmt::format("{}, {} chain", name, side));
-      MatrixXd own = noise_at(part, part.points[i], by_mark);
-      if (!at_.covariance.empty()) own += at_.covariance[first + i];
-      add_unit(name, std::move(own));
+      add_unit(name, noise_at(part, part.points[i], by_mark));
     }
-    if (part.sheet) add_shared(by_sheet * part.sheet->sigma().asDiagonal(), before);
+    if (part.sheet) gather(by_sheet * part.sheet->sigma().asDiagonal(), before);
   }
 
-  /// Errors that the rows from one on share, one sigma a column.
-  void add_shared(const MatrixXd& by_error, Index first_row) {
-    for (Index column = 0; column < by_error.cols(); ++column, ++shared_columns_) {
+  /// Independent errors of the rows from one on, one sigma a column.
+  void gather(const MatrixXd& by_error, Index first_row) {
+    const Index first = errors_.empty() ? 0 : errors_.back().col() + 1;
+    for (Index column = 0; column < by_error.cols(); ++column) {
       for (Index i = 0; i < by_error.rows(); ++i) {
         if (by_error(i, column) != 0.0)
-          shared_.emplace_back(first_row + i, shared_columns_, by_error(i, column));
+          errors_.emplace_back(first_row + i, first + column, by_error(i, column));
       }
     }
   }
@@ -342,8 +348,6 @@ class Gathered {
     const VectorXd residual = part.distances->measured() - geometry.predicted_mm;
     const Index before = row(), count = residual.size();
     append_all(residual_mm_, residual);
-    // The map's uncertainty at a hole, which all of its distances share.
-    MatrixXd by_map = MatrixXd::Zero(count, at_.covariance.empty() ? 0 : geometry.by_mark.cols());
     Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
     for (Index k = 0; k < count; ++k) {
       const HoleDistance& distance = set.distances[as_size(k)];
@@ -359,9 +363,6 @@ class Gathered {
             -geometry.by_mark.block<1, 2>(k, column) * at_.by_mark[first + hole].inverse();
         for (const Index axis : {0, 1})
           by_length_.emplace_back(before + k, 2 * as_index(first) + column + axis, by_length[axis]);
-        if (at_.covariance.empty()) continue;
-        const Matrix2d root = Eigen::LLT<Matrix2d>(at_.covariance[first + hole]).matrixL();
-        by_map.block<1, 2>(k, column) = by_length * root;
       }
       // If a sheet moves, a hole's mark on it moves the other way; distances to edges depend on it,
       // with the rotation to first order.
@@ -370,22 +371,52 @@ class Gathered {
                           model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
       }
     }
-    add_shared(set.hole_sigma_mm * geometry.by_mark, before);
-    add_shared(by_map, before);
-    add_shared(set.sheet.size_sigma_mm * geometry.by_size, before);
-    add_shared(VectorXd::Constant(count, tape_zero_sigma_mm(set.tape)), before);
-    if (part.sheet) add_shared(by_sheet * part.sheet->sigma().asDiagonal(), before);
+    gather(set.hole_sigma_mm * geometry.by_mark, before);
+    gather(set.sheet.size_sigma_mm * geometry.by_size, before);
+    gather(VectorXd::Constant(count, tape_zero_sigma_mm(set.tape)), before);
+    if (part.sheet) gather(by_sheet * part.sheet->sigma().asDiagonal(), before);
   }
 
   const MapAt& at_;
   CheckReadings readings_;
   std::vector<double> residual_mm_;
   Entries by_length_;
-  Entries shared_;
-  Index shared_columns_ = 0;
+  Entries errors_;
 };
 
 }  // namespace
+
+void add_errors(const Eigen::SparseMatrix<double>& errors, ReadingCovariance& covariance) {
+  using At = Eigen::SparseMatrix<double>::InnerIterator;
+  std::vector<std::size_t> unit_of;  // of each row
+  std::vector<Index> first_row;
+  for (const MatrixXd& own : covariance.own) {
+    first_row.push_back(std::ssize(unit_of));
+    unit_of.resize(unit_of.size() + as_size(own.rows()), first_row.size() - 1);
+  }
+  Index columns = covariance.shared.cols();
+  Entries entries;
+  for (Index column = 0; column < columns; ++column) {
+    for (At at(covariance.shared, column); at; ++at)
+      entries.emplace_back(at.row(), column, at.value());
+  }
+  for (Index error = 0; error < errors.cols(); ++error) {
+    const std::size_t before = entries.size();
+    for (At at(errors, error); at; ++at) entries.emplace_back(at.row(), columns, at.value());
+    if (entries.size() == before) continue;
+    const std::size_t unit = unit_of[as_size(entries[before].row())];
+    if (unit != unit_of[as_size(entries.back().row())]) {
+      ++columns;
+      continue;
+    }
+    entries.resize(before);
+    MatrixXd& own = covariance.own[unit];
+    const VectorXd part = errors.block(first_row[unit], error, own.rows(), 1);
+    own += part * part.transpose();
+  }
+  covariance.shared.resize(covariance.rows(), columns);
+  covariance.shared.setFromTriplets(entries.begin(), entries.end());
+}
 
 tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& map,
                                                          const Measured& measured,

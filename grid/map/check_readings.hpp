@@ -13,6 +13,10 @@
 
 namespace chaintrue::grid {
 
+/// Adds independent errors to K of the readings, one sigma a column (n x any). What the rows of a
+/// single unit have adds to its noise; others are shared. \pre N and F have their rows.
+void add_errors(const Eigen::SparseMatrix<double>& errors, ReadingCovariance& covariance);
+
 /// For all files together, since they share the map's uncertainty. Repeated readings at a mark, or
 /// of a distance in one file, are replaced by their mean, which is as informative. Fails before any
 /// work if there are too many.

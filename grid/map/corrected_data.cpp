@@ -21,6 +21,10 @@ using model::effects::Station;
 
 bool is_of_the_paper(const Effect& effect) { return effect.station == Station::paper; }
 
+bool is_of_the_machine(const Effect& effect) {
+  return !is_of_the_paper(effect) && !depends_on_visit(effect);
+}
+
 /// The machine with only those effects for which `keep` is true.
 template <class Keep>
 Machine with_effects_that(Machine machine, Keep keep) {
@@ -77,14 +81,9 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
   CorrectedData corrected{grid, {}};
   if (!grid.machine || !model::effects::problems_of_effects(*grid.machine).empty())
     return corrected;
-  const auto of_the_visit = [](const Effect& effect) {
-    return model::effects::depends_on_visit(effect);
-  };
   const Machine paper = with_effects_that(*grid.machine, is_of_the_paper);
-  const Machine visit = with_effects_that(*grid.machine, of_the_visit);
-  const Machine rest = with_effects_that(*grid.machine, [&](const Effect& effect) {
-    return !is_of_the_paper(effect) && !of_the_visit(effect);
-  });
+  const Machine visit = with_effects_that(*grid.machine, model::effects::depends_on_visit);
+  const Machine rest = with_effects_that(*grid.machine, is_of_the_machine);
   if (!paper.effects.empty()) {
     const model::MarkFrame marks(paper);
     for (MeasuredPoint& point : corrected.grid.points) point.mark = marks.place(point.mark);
@@ -119,9 +118,7 @@ MeasuredHoles with_true_tape(MeasuredHoles set) {
   const double factor = observation::tape_factor(*set.machine);
   for (HoleDistance& distance : set.distances)
     distance.distance_mm = set.tape.tape_zero_offset_mm + length_of(set, distance) / factor;
-  set.machine = with_effects_that(*set.machine, [](const Effect& effect) {
-    return !is_of_the_paper(effect) && !model::effects::depends_on_visit(effect);
-  });
+  set.machine = with_effects_that(*set.machine, is_of_the_machine);
   return set;
 }
 

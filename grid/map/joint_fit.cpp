@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -24,31 +23,17 @@ namespace {
 
 using Parts = std::vector<std::unique_ptr<FitPart>>;
 
-FitFailure failure_of(const estimation::EstimationFailure& failure) {
-  using Of = estimation::EstimationFailure::Reason;
-  switch (failure.reason) {
-    case Of::place_unreachable:
-      return {FitFailure::Reason::point_unreachable, failure.sentence()};
-    case Of::rank_deficient:
-      return {FitFailure::Reason::rank_deficient, failure.sentence()};
-    case Of::not_converged:
-      break;
-  }
-  return {FitFailure::Reason::not_converged, failure.sentence()};
-}
-
 tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>& files) {
   if (files.size() == 1) return {};
   for (const MeasuredFile& file : files) {
     const auto& machine = file.machine();
     if (!machine) {
-      return failed(FitFailure::Reason::no_machine,
+      return failed(FitReason::no_machine,
                     fmt::format("{} has no machine: add --machine", file.name));
     }
     const std::string difference = difference_of_settings(*files.front().machine(), *machine);
     if (!difference.empty()) {
-      return failed(FitFailure::Reason::impossible_readings,
-                    fmt::format("{}: {}", file.name, difference));
+      return failed(FitReason::impossible_readings, fmt::format("{}: {}", file.name, difference));
     }
   }
   return {};
@@ -123,7 +108,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
     const bool alone = parts.size() == 1;
     if (3 * bad <= all && (!alone || all - bad >= parts[k]->fewest_good)) continue;
     return failed(
-        FitFailure::Reason::rank_deficient,
+        FitReason::rank_deficient,
         alone ? parts[k]->few_good(bad, all)
               : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
                             "all from one machine, with the same chains on the same teeth?",
@@ -212,22 +197,9 @@ std::vector<std::string> notes_of(const Parts& parts, const Fitting& fitting,
   return notes;
 }
 
-/// The tool's mean square by noise as stated at the good points, mm^2.
-double stated_noise_mm2(const std::vector<FittedPoint>& points, const MapNoise& noise) {
-  double sum = 0.0;
-  int count = 0;
-  for (const FittedPoint& point : points) {
-    if (point.is_rejected()) continue;
-    sum += 2.0 * noise.position_mm * noise.position_mm +
-           noise.length_mm * noise.length_mm * point.mark_jacobian.inverse().squaredNorm();
-    ++count;
-  }
-  return sum / std::max(count, 1);
-}
-
 /// If readings scatter clearly more than stated, left-out blocks estimate the map's error better
 /// than the fit, which treats all of the scatter as noise.
-CompensationMap with_held_out_error(CompensationMap map, const std::vector<FittedPoint>& points) {
+CompensationMap with_held_out_error(CompensationMap map) {
   // With 12 degrees of freedom stated and 40 in the fit, noise alone does so once in 500.
   constexpr double kClearly = 2.0;
   const MapNoise& noise = map.contents().noise;
@@ -235,7 +207,7 @@ CompensationMap with_held_out_error(CompensationMap map, const std::vector<Fitte
   const bool is_stated = noise.source == NoiseSource::stated;
   if (!is_stated || noise.factor_found < kClearly || !(expected_mm > 0.0)) return map;
   const double left_out_mm2 =
-      std::pow(map.contents().accuracy.blocked.tool.rms_mm, 2) - stated_noise_mm2(points, noise);
+      std::pow(map.contents().accuracy.blocked.tool.rms_mm, 2) - std::pow(noise_at_tool_mm(map), 2);
   if (left_out_mm2 <= expected_mm * expected_mm) return map;
   const double larger_mm = std::sqrt(left_out_mm2);
   return with_larger_error(map, larger_mm / expected_mm)
@@ -273,9 +245,8 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files, const Parts& part
   }
   map.notes = notes_of(parts, fitting, files, draft, map.settings);
   CompensationMap finished = with_expected_error(std::move(map));
-  if (alone && !draft.points.empty())
-    finished = with_held_out_error(std::move(finished), draft.points);
   if (draft.points.empty()) return finished;
+  if (alone) finished = with_held_out_error(std::move(finished));
   MapContents with_mirror = finished.contents();
   with_mirror.mirror = test_mirror(finished);
   return CompensationMap(std::move(with_mirror));
@@ -285,7 +256,12 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files, const Parts& part
 
 tl::expected<Fitting, FitFailure> Fitting::of(estimation::EstimationInput input) {
   auto estimate = estimation::estimate(input);
-  if (!estimate) return tl::unexpected(failure_of(estimate.error()));
+  if (!estimate) {
+    constexpr FitReason kReasons[] = {FitReason::point_unreachable, FitReason::rank_deficient,
+                                      FitReason::not_converged};  // by EstimationReason
+    return failed(kReasons[static_cast<std::size_t>(estimate.error().reason)],
+                  estimate.error().sentence());
+  }
   return Fitting{std::move(input), *std::move(estimate)};
 }
 
@@ -299,17 +275,15 @@ tl::expected<void, FitFailure> check_readings_of(const model::Machine& machine,
                                                  const char* what) {
   const model::Machine read = with_readings(machine, readings);
   std::string problems;
-  for (const model::MachineProblem& problem : model::problems_of(read)) {
-    problems += fmt::format(" {} would be {}, expected {};", problem.parameter, problem.value,
-                            problem.expected);
-  }
-  for (const auto& problem : model::effects::problems_of_effects(read)) {
+  std::vector<model::MachineProblem> found = model::problems_of(read);
+  append_all(found, model::effects::problems_of_effects(read));
+  for (const model::MachineProblem& problem : found) {
     problems += fmt::format(" {} would be {}, expected {};", problem.parameter, problem.value,
                             problem.expected);
   }
   if (problems.empty()) return {};
   problems.back() = '.';
-  return failed(FitFailure::Reason::impossible_readings,
+  return failed(FitReason::impossible_readings,
                 fmt::format("with the {} readings put in,{}", what, problems));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/mechanism_map.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "grid/plane_vectors.hpp"
@@ -37,20 +38,13 @@ model::ToolPosition SheetInFrame::in_frame(model::BedPoint sheet) const {
 
 model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
                               const std::vector<model::BedPoint>& to) {
-  const auto count = as_double(from.size());
-  Vector2d a = Vector2d::Zero(), b = Vector2d::Zero();
+  Matrix2Xd a(2, std::ssize(from)), b(2, std::ssize(from));
   for (std::size_t i = 0; i < from.size(); ++i) {
-    a += vector_of(from[i]) / count;
-    b += vector_of(to[i]) / count;
+    a.col(as_index(i)) = vector_of(from[i]);
+    b.col(as_index(i)) = vector_of(to[i]);
   }
-  Matrix2d moment = Matrix2d::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i)
-    moment += (vector_of(from[i]) - a) * (vector_of(to[i]) - b).transpose();
-  model::SheetPlacement sheet{0.0, 0.0, std::atan2(moment(0, 1) - moment(1, 0), moment.trace())};
-  const Vector2d shift = b - sheet.rotation() * a;
-  sheet.x_mm = shift.x();
-  sheet.y_mm = shift.y();
-  return sheet;
+  const MatrixXd t = Eigen::umeyama(a, b, false);
+  return {t(0, 2), t(1, 2), std::atan2(t(1, 0), t(0, 0))};
 }
 
 MechanismSpread spread_about(const VectorXd& values, const MatrixXd& covariance,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -31,12 +30,10 @@ struct Truth {
   std::size_t points = 0;  ///< points behind it; 0: it is exact
 };
 
-/// A setting that may change: its usual error, a step for its derivative, and the digits that are
-/// typed.
+/// A setting that may change: its usual error, and the digits that are typed.
 struct FreeSetting {
   std::optional<double> ControllerSettings::*value;
   double sigma;
-  double step;
   double per_unit = 1e4;
 };
 
@@ -59,24 +56,24 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
   // Brackets are measured as a ring is, a centre of gravity by balancing the sled on an edge.
   constexpr double kBracketSigmaMm = 1.0, kBalanceSigmaMm = 5.0;
   std::vector<FreeSetting> all = {
-      {&S::motor_spacing_mm, std::sqrt(2.0) * motor_mm, 0.1},
-      {&S::motor_offset_y_mm, motor_mm / std::sqrt(2.0), 0.1},
+      {&S::motor_spacing_mm, std::sqrt(2.0) * motor_mm},
+      {&S::motor_offset_y_mm, motor_mm / std::sqrt(2.0)},
   };
   if (std::holds_alternative<model::Ring>(machine.attachment)) {
-    all.insert(all.end(), {{&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
-                           {&S::chain_sag_correction, kSagSigma, 0.1},
-                           {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
-                           {&S::right_chain_tolerance_percent, pitch_percent, 1e-3}});
+    all.insert(all.end(), {{&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm},
+                           {&S::chain_sag_correction, kSagSigma},
+                           {&S::left_chain_tolerance_percent, pitch_percent},
+                           {&S::right_chain_tolerance_percent, pitch_percent}});
   } else {
     // The firmware's quadrilateral has neither sag nor tolerances.
-    all.insert(all.end(), {{&S::sled_width_mm, kBracketSigmaMm, 0.1},
-                           {&S::sled_height_mm, kBracketSigmaMm, 0.1},
-                           {&S::sled_cg_mm, kBalanceSigmaMm, 0.1}});
+    all.insert(all.end(), {{&S::sled_width_mm, kBracketSigmaMm},
+                           {&S::sled_height_mm, kBracketSigmaMm},
+                           {&S::sled_cg_mm, kBalanceSigmaMm}});
   }
   if (is_holey(machine)) {
     const double tilt_deg = std::sqrt(2.0) * motor_mm / spacing_mm * 180.0 / std::numbers::pi;
-    all.push_back({&S::top_beam_tilt_deg, tilt_deg, 1e-3});
-    all.push_back({&S::chain_elongation_per_n, usual_size("chain_stretch"), 1e-7, 1e9});
+    all.push_back({&S::top_beam_tilt_deg, tilt_deg});
+    all.push_back({&S::chain_elongation_per_n, usual_size("chain_stretch"), 1e9});
   }
   std::vector<FreeSetting> present;
   for (const FreeSetting& setting : all) {
@@ -95,40 +92,12 @@ std::optional<VectorXd> errors_with(const Machine& machine, const ControllerSett
   return controller_errors(paid_out_by(with_settings), places);
 }
 
-/// One step of Gauss and Newton from `now`; `weight` multiplies squared errors relative to the priors.
-std::optional<ControllerSettings> improved(const Machine& machine, const ControllerSettings& now,
-                                           const std::vector<FreeSetting>& free,
-                                           const std::vector<MeasuredPlace>& places,
-                                           double weight) {
-  const auto errors = errors_with(machine, now, places);
-  if (!errors) return std::nullopt;
-  const auto unknowns = std::ssize(free);
-  MatrixXd by_setting(errors->size(), unknowns);
-  VectorXd prior_pull(unknowns);  // of the settings in force, in sigmas
-  for (Index k = 0; k < unknowns; ++k) {
-    const FreeSetting& setting = free[as_size(k)];
-    ControllerSettings more = now;
-    ControllerSettings less = now;
-    *(more.*setting.value) += setting.step;
-    *(less.*setting.value) -= setting.step;
-    const auto up = errors_with(machine, more, places);
-    const auto down = errors_with(machine, less, places);
-    if (!up || !down) return std::nullopt;
-    by_setting.col(k) = (*up - *down) * (setting.sigma / (2.0 * setting.step));
-    prior_pull[k] =
-        (*(now.*setting.value) - *(machine.controller.settings.*setting.value)) / setting.sigma;
-  }
-  MatrixXd normal = MatrixXd::Identity(unknowns, unknowns);
-  linear::add_gram(normal, weight, by_setting);
-  const VectorXd right =
-      -weight * linear::product(linear::transposed(by_setting), *errors) - prior_pull;
-  const VectorXd step = linear::Cholesky(std::move(normal)).solve(right);
-  ControllerSettings better = now;
-  for (Index k = 0; k < unknowns; ++k) {
-    const FreeSetting& setting = free[as_size(k)];
-    *(better.*setting.value) += setting.sigma * step[k];
-  }
-  return better;
+/// The settings in force, each changed by a number of its usual errors.
+ControllerSettings changed_by(const VectorXd& sigmas, const std::vector<FreeSetting>& free,
+                              ControllerSettings settings) {
+  for (std::size_t k = 0; k < free.size(); ++k)
+    *(settings.*free[k].value) += free[k].sigma * sigmas[as_index(k)];
+  return settings;
 }
 
 /// To the digits that are typed.
@@ -174,16 +143,25 @@ std::optional<TypedSettings> best_settings(const Truth& truth,
   const double sigma_mm = std::max(truth.sigma_mm, kFinestMm);
   const double told = truth.points == 0 ? 1.0 : as_double(truth.points) / as_double(places.size());
   const double weight = told / (sigma_mm * sigma_mm);
-  ControllerSettings settings = truth.machine.controller.settings;
-  // The formulas are nearly linear over some millimetres: the third step is below the typed
-  // resolution.
+  const ControllerSettings& in_force = truth.machine.controller.settings;
+  const ErrorsAt errors_at = [&](const VectorXd& sigmas) {
+    return errors_with(truth.machine, changed_by(sigmas, free, in_force), places);
+  };
+  VectorXd sigmas = VectorXd::Zero(std::ssize(free));
+  // By Gauss and Newton. The formulas are nearly linear over some millimetres: the third step is
+  // below the typed resolution.
   constexpr int kSteps = 4;
   for (int step = 0; step < kSteps; ++step) {
-    const auto better = improved(truth.machine, settings, free, places, weight);
-    if (!better) return std::nullopt;
-    settings = *better;
+    const auto line = linearised(errors_at, sigmas);
+    if (!line) return std::nullopt;
+    MatrixXd normal = MatrixXd::Identity(sigmas.size(), sigmas.size());
+    linear::add_gram(normal, weight, line->by_value);
+    const VectorXd pull =
+        weight * linear::product(linear::transposed(line->by_value), line->errors) + sigmas;
+    sigmas -= linear::Cholesky(std::move(normal)).solve(pull);
   }
-  round_to_type(free, truth.machine.controller.settings, settings);
+  ControllerSettings settings = changed_by(sigmas, free, in_force);
+  round_to_type(free, in_force, settings);
   const auto errors = errors_with(truth.machine, settings, places);
   if (!errors) return std::nullopt;
   return TypedSettings{settings, *errors, rms_of(places, *errors)};
@@ -277,6 +255,20 @@ CompensationMap map_of(const CompensationMap& map, const Machine& machine) {
 }
 
 }  // namespace
+
+std::optional<ErrorsLine> linearised(const ErrorsAt& errors_at, const VectorXd& values) {
+  constexpr double kStep = 0.01;
+  const auto errors = errors_at(values);
+  if (!errors) return std::nullopt;
+  ErrorsLine line{*errors, MatrixXd(errors->size(), values.size())};
+  for (Index k = 0; k < values.size(); ++k) {
+    const VectorXd step = kStep * VectorXd::Unit(values.size(), k);
+    const auto up = errors_at(values + step), down = errors_at(values - step);
+    if (!up || !down) return std::nullopt;
+    line.by_value.col(k) = (*up - *down) / (2.0 * kStep);
+  }
+  return line;
+}
 
 tl::expected<SettingsToType, SettingsFailure> settings_to_type(
     const CompensationMap& map, const std::optional<model::Controller>& now) {

@@ -17,15 +17,27 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {
+
+/// The first part of (1) of controller_error.hpp with some values, which are settings of the
+/// controller; empty if it cannot go to a place with them.
+using ErrorsAt = std::function<std::optional<VectorXd>(const VectorXd& values)>;
+struct ErrorsLine {
+  VectorXd errors;
+  MatrixXd by_value;  ///< by central differences of a hundredth
+};
+/// Empty where the errors are.
+std::optional<ErrorsLine> linearised(const ErrorsAt& errors_at, const VectorXd& values);
 
 /// An influence on the machine that no setting describes.
 struct Lacking {

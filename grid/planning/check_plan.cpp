@@ -12,6 +12,7 @@
 #include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/check_readings.hpp"
+#include "grid/planning/distance_choice.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
 #include "interp/linear_algebra.hpp"
@@ -72,30 +73,12 @@ class Separation {
 
 /// Exchanges points as long as an exchange is an improvement, from evenly spaced ones.
 std::vector<std::size_t> choose(const Separation& separation, std::size_t places, int points) {
-  constexpr int kSweeps = 20;
-  constexpr double kWorthwhile = 1e-6;
   std::vector<std::size_t> chosen;
   for (int i = 0; i < points; ++i) {
     chosen.push_back(as_size(i) * (places - 1) / as_size(points - 1));
   }
-  double best = separation.together(chosen);
-  bool moved = true;
-  for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
-    moved = false;
-    for (std::size_t& one : chosen) {
-      for (std::size_t other = 0; other < places; ++other) {
-        if (contains(chosen, other)) continue;
-        const std::size_t before = std::exchange(one, other);
-        const double value = separation.together(chosen);
-        if (value > best * (1.0 + kWorthwhile)) {
-          best = value;
-          moved = true;
-        } else {
-          one = before;
-        }
-      }
-    }
-  }
+  const auto value = [&](std::size_t) { return 1.0 / separation.together(chosen); };
+  exchange({20, 1e-6}, numbers_below(places), chosen, value(0), value);
   sort(chosen);
   return chosen;
 }

@@ -42,6 +42,42 @@ struct PlannedPlace {
   Eigen::Matrix<double, 2, kPlanUnknowns> by_unknown;
 };
 
+/// How single choices are exchanged for others.
+struct Exchange {
+  int sweeps;         ///< over all of them, at most
+  double worthwhile;  ///< share by which an exchange has to lower the value
+  WorkStep step{};
+  Progress progress{};
+};
+
+/// Exchanges single ones of those chosen as long as this lowers a value: `least` of those chosen,
+/// `value_with(i)` with another one at i. \returns the least value. Source: A. Atkinson, A. Donev and
+/// R. Tobias, Optimum Experimental Designs, with SAS (2007), section 12.3.
+template <class One, class ValueWith>
+double exchange(Exchange how, const std::vector<One>& others, std::vector<One>& chosen,
+                double least, const ValueWith& value_with) {
+  bool moved = true;
+  for (how.step.pass = 1; how.step.pass <= how.sweeps && moved; ++how.step.pass) {
+    moved = false;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      how.step.share = as_double(i) / as_double(chosen.size());
+      tell(how.progress, how.step);
+      for (const One& other : others) {
+        if (contains(chosen, other)) continue;
+        const One before = std::exchange(chosen[i], other);
+        const double value = value_with(i);
+        if (value < least * (1.0 - how.worthwhile)) {
+          least = value;
+          moved = true;
+        } else {
+          chosen[i] = before;
+        }
+      }
+    }
+  }
+  return least;
+}
+
 /// Immutable, thread safe.
 class DistanceChooser {
  public:
@@ -60,73 +96,22 @@ class DistanceChooser {
     std::vector<HoleDistance> distances;
     double variance_mm2 = 0.0;  ///< trace(C S)
   };
-  /// Adds distances one by one, each time the one that lowers the variance most.
-  Choice greedy(const Holes& holes) const {
-    // Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many
-    // updates; the first one is kept.
-    constexpr double kBetterChoice = 1.0 + 1e-6;
-    Measurable all = measurable(holes, in_reach(holes));
-    const double tape2 = request_.tape_sigma_mm * request_.tape_sigma_mm;
-    const auto count = std::ssize(all.distances);
-    const auto wanted = std::min(as_index(distances_of(request_)), count);
-    Choice choice;
-    choice.variance_mm2 = linear::carried(root_, prior_).trace();
-    std::vector<bool> taken(all.distances.size(), false);
-    for (Index i = 0; i < wanted; ++i) {
-      Index best = -1;
-      double best_gain = 0.0;
-      for (Index k = 0; k < count; ++k) {
-        if (taken[as_size(k)]) continue;
-        const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
-        if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
-        best_gain = gain;
-        best = k;
-      }
-      taken[as_size(best)] = true;
-      choice.distances.push_back(all.distances[as_size(best)]);
-      choice.variance_mm2 -= best_gain;
-      const VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
-      all.pull -= VectorXd(all.pull.col(best)) * with.transpose();
-      all.known -= VectorXd(all.known.col(best)) * with.transpose();
-    }
-    return choice;
+
+  /// trace(C S) after the distances that are added one by one, each time the one that lowers it most.
+  double variance_mm2(const Holes& holes) const {
+    std::vector<std::size_t> chosen;
+    return add_best(measurable(holes, in_reach(holes)), chosen);
   }
 
-  /// Exchanges single distances as long as an exchange is an improvement.
-  Choice exchange(const Holes& holes, Choice choice) const {
-    constexpr int kSweeps = 5;
-    constexpr double kWorthwhile = 1e-6;
+  /// Those distances, single ones exchanged as long as an exchange is an improvement.
+  Choice choose(const Holes& holes) const {
     const Measurable all = measurable(holes, in_reach(holes));
-    const auto number_of = [&all](const HoleDistance& distance) {
-      const auto at =
-          std::find_if(all.distances.begin(), all.distances.end(), [&](const auto& one) {
-            return one.from == distance.from && one.to == distance.to && one.edge == distance.edge;
-          });
-      return as_size(at - all.distances.begin());
-    };
     std::vector<std::size_t> chosen;
-    for (const HoleDistance& distance : choice.distances) chosen.push_back(number_of(distance));
-    bool moved = true;
-    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
-      moved = false;
-      for (std::size_t& one : chosen) {
-        const auto done = as_double(&one - chosen.data());
-        tell(request_.progress,
-             {"which distances are measured", 2, 2, done / as_double(chosen.size()), sweep + 1});
-        for (std::size_t other = 0; other < all.distances.size(); ++other) {
-          if (contains(chosen, other)) continue;
-          const std::size_t before = std::exchange(one, other);
-          const double variance = variance_mm2(all, chosen);
-          if (variance < choice.variance_mm2 * (1.0 - kWorthwhile)) {
-            choice.variance_mm2 = variance;
-            moved = true;
-          } else {
-            one = before;
-          }
-        }
-      }
-    }
-    choice.distances.clear();
+    Choice choice{{}, add_best(all, chosen)};
+    choice.variance_mm2 =
+        exchange({5, 1e-6, {"which distances are measured", 2, 2}, request_.progress},
+                 numbers_below(all.distances.size()), chosen, choice.variance_mm2,
+                 [&](std::size_t) { return variance_mm2(all, chosen); });
     for (const std::size_t k : chosen) choice.distances.push_back(all.distances[k]);
     return choice;
   }
@@ -166,6 +151,33 @@ class DistanceChooser {
     all.pull = root_ * cross;
     all.distances = std::move(set.distances);
     return all;
+  }
+
+  /// \param chosen their numbers
+  double add_best(Measurable all, std::vector<std::size_t>& chosen) const {
+    // Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many
+    // updates; the first one is kept.
+    constexpr double kBetterChoice = 1.0 + 1e-6;
+    const double tape2 = request_.tape_sigma_mm * request_.tape_sigma_mm;
+    const auto wanted = std::min(as_size(distances_of(request_)), all.distances.size());
+    double variance_mm2 = linear::carried(root_, prior_).trace();
+    while (chosen.size() < wanted) {
+      Index best = -1;
+      double best_gain = 0.0;
+      for (Index k = 0; k < std::ssize(all.distances); ++k) {
+        if (contains(chosen, as_size(k))) continue;
+        const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
+        if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
+        best_gain = gain;
+        best = k;
+      }
+      chosen.push_back(as_size(best));
+      variance_mm2 -= best_gain;
+      const VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
+      all.pull -= VectorXd(all.pull.col(best)) * with.transpose();
+      all.known -= VectorXd(all.known.col(best)) * with.transpose();
+    }
+    return variance_mm2;
   }
 
   std::vector<HoleDistance> in_reach(const Holes& holes) const {

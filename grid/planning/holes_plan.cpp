@@ -18,6 +18,7 @@
 #include "grid/planning/distance_choice.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
+#include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
@@ -99,12 +100,10 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
   return result;
 }
 
-bool is_free(const Holes& holes, std::size_t moving, MarkPoint place, double apart_mm) {
-  for (std::size_t i = 0; i < holes.size(); ++i) {
-    if (i == moving) continue;
-    if (distance_mm(holes[i]->place, place) < apart_mm) return false;
-  }
-  return true;
+bool is_free(const Holes& holes, std::size_t moved, double apart_mm) {
+  return none_of(holes, [&](const PlannedPlace* hole) {
+    return hole != holes[moved] && distance_mm(hole->place, holes[moved]->place) < apart_mm;
+  });
 }
 
 /// Spread out: each next hole as far as possible from those before, the first in a corner.
@@ -129,33 +128,14 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
 }
 
 /// Moves single holes as long as a move is an improvement.
-DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
-                                   const std::vector<PlannedPlace>& places, double apart_mm,
-                                   const Progress& progress, Holes& holes) {
-  constexpr int kSweeps = 4;
-  constexpr double kWorthwhile = 1e-4;
-  DistanceChooser::Choice best = chooser.greedy(holes);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    bool moved = false;
-    for (std::size_t i = 0; i < holes.size(); ++i) {
-      const double share = as_double(i) / as_double(holes.size());
-      tell(progress, {"where the holes are cut", 1, 2, share, sweep + 1});
-      for (const PlannedPlace& place : places) {
-        if (&place == holes[i] || !is_free(holes, i, place.place, apart_mm)) continue;
-        const PlannedPlace* before = holes[i];
-        holes[i] = &place;
-        DistanceChooser::Choice next = chooser.greedy(holes);
-        if (next.variance_mm2 < best.variance_mm2 * (1.0 - kWorthwhile)) {
-          best = std::move(next);
-          moved = true;
-        } else {
-          holes[i] = before;
-        }
-      }
-    }
-    if (!moved) break;
-  }
-  return best;
+void move_holes(const DistanceChooser& chooser, const std::vector<PlannedPlace>& places,
+                double apart_mm, const Progress& progress, Holes& holes) {
+  Holes others;
+  for (const PlannedPlace& place : places) others.push_back(&place);
+  exchange({4, 1e-4, {"where the holes are cut", 1, 2}, progress}, others, holes,
+           chooser.variance_mm2(holes), [&](std::size_t moved) {
+             return is_free(holes, moved, apart_mm) ? chooser.variance_mm2(holes) : kInfinity;
+           });
 }
 
 /// Holes in the order of a walk, row by row from the top left, named A, B, C, ...
@@ -343,9 +323,8 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   const ToolError error = tool_error(machine, request.edges);
   const DistanceChooser chooser(machine, request, prior, error.root);
   Holes holes = spread(places, as_size(request.holes));
-  DistanceChooser::Choice choice = move_holes(
-      chooser, places, least_apart_mm(machine, request.margin_mm), request.progress, holes);
-  choice = chooser.exchange(holes, std::move(choice));
+  move_holes(chooser, places, least_apart_mm(machine, request.margin_mm), request.progress, holes);
+  const DistanceChooser::Choice choice = chooser.choose(holes);
   const MatrixXd after = chooser.covariance(holes, choice.distances);
   HolesPlan plan;
   plan.set = set_of(machine, request, holes, choice.distances);

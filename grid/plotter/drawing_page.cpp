@@ -33,8 +33,8 @@ std::vector<DrawnLine> lines_of(const TestDrawing& drawing) {
 
 }  // namespace
 
-std::string drawing_gcode(const TestDrawing& drawing, const PenCommands& pen,
-                          double feed_mm_per_min) {
+std::string drawing_gcode(const TestDrawing& drawing) {
+  const PenCommands& pen = drawing.pen;
   const auto at = [&](const model::BedPoint& point) {
     return fmt::format("X{:.3f} Y{:.3f}", point.x_mm + drawing.pins_middle.x_mm,
                        point.y_mm + drawing.pins_middle.y_mm);
@@ -42,7 +42,7 @@ std::string drawing_gcode(const TestDrawing& drawing, const PenCommands& pen,
   std::string text = fmt::format("G21\nG90\n{}\n", pen.up);
   for (const DrawnLine& line : lines_of(drawing)) {
     text += fmt::format("G0 {}\n{}\nG1 {} F{:.0f}\n{}\n", at(line.from), pen.down, at(line.to),
-                        feed_mm_per_min, pen.up);
+                        drawing.feed_mm_per_min, pen.up);
   }
   return text;
 }

@@ -4,7 +4,7 @@
 ///
 /// \code
 ///   const TestDrawing drawing = planned_drawing(machine, PlotterFirmware::fluidnc);
-///   write("page.gcode", drawing_gcode(drawing, {"M5", "M3 S90"}, 1500.0));
+///   write("page.gcode", drawing_gcode(drawing));
 ///   write("sheet.txt", measuring_list(drawing));
 /// \endcode
 #pragma once
@@ -17,8 +17,7 @@ namespace chaintrue::grid {
 
 /// In the controller's coordinates (TestDrawing::pins_middle), millimetres, absolute: a cross at each
 /// point, then every line with a bow to measure, from its first cross to its last.
-std::string drawing_gcode(const TestDrawing& drawing, const PenCommands& pen,
-                          double feed_mm_per_min);
+std::string drawing_gcode(const TestDrawing& drawing);
 
 /// For a mural, which is sent a picture: 1 unit is 1 mm, the origin is the left top corner of the
 /// drawing area.

@@ -27,16 +27,6 @@ Point middle_of(const std::vector<Point>& points) {
   return {sum.x_mm / count, sum.y_mm / count};
 }
 
-/// Commands of the test page's crosses in the controller's coordinates.
-std::vector<BedPoint> crosses_of(const SetPlotter& set) {
-  std::vector<BedPoint> crosses;
-  for (const DrawnCross& cross : planned_drawing(set).crosses) {
-    crosses.push_back(
-        {cross.commanded.x_mm + set.pins_middle.x_mm, cross.commanded.y_mm + set.pins_middle.y_mm});
-  }
-  return crosses;
-}
-
 /// Where a plotter's pen is when these lengths are counted. \throws std::invalid_argument.
 std::vector<MarkPoint> pens_of(const model::Mechanism& plotter,
                                const std::vector<model::ChainLengths>& counted) {
@@ -57,12 +47,12 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   if (!plotter.found) throw std::invalid_argument("a plotter of which nothing was found");
   const SetPlotter& set = plotter.set;
   const auto found = model::make_plotter_mechanism(machine_found(set, *plotter.found));
-  const std::vector<BedPoint> crosses = crosses_of(set);
+  const BedPoint by = set.pins_middle;
+  std::vector<BedPoint> crosses;  // as commanded, in the controller's coordinates
   std::vector<model::ChainLengths> counted;
-  for (const BedPoint& cross : crosses) {
-    const auto lengths =
-        model::paid_out(set.firmware, set.machine,
-                        {cross.x_mm - set.pins_middle.x_mm, cross.y_mm - set.pins_middle.y_mm});
+  for (const auto& [name, commanded] : planned_drawing(set).crosses) {
+    crosses.push_back({commanded.x_mm + by.x_mm, commanded.y_mm + by.y_mm});
+    const auto lengths = model::paid_out(set.firmware, set.machine, commanded);
     if (!lengths)
       throw std::invalid_argument(fmt::format("a cross that the controller cannot hold: {}",
                                               sentence_of(lengths.error().reason)));
@@ -83,7 +73,6 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
     on_page.push_back(cross);
   }
   const model::MechanismExtent e = found->extent();
-  const BedPoint by = set.pins_middle;
   return {best,
           spread_about(found->values(), plotter.found->covariance(),
                        [&](const VectorXd& values) {

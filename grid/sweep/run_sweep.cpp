@@ -11,6 +11,7 @@
 #include "grid/parallel.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::sweep {
 namespace {
@@ -75,34 +76,6 @@ model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64
   return truth_of(spec.machines[at[0]].truth, session).machine;
 }
 
-class ErrorSum {
- public:
-  void add(const Vector2d& chain_mm, const Vector2d& tool_mm) {
-    chain_squares_ += chain_mm.squaredNorm();
-    tool_squares_ += tool_mm.squaredNorm();
-    result_.chain_max_mm = std::max(result_.chain_max_mm, chain_mm.lpNorm<Eigen::Infinity>());
-    result_.tool_max_mm = std::max(result_.tool_max_mm, tool_mm.norm());
-    ++count_;
-  }
-  void miss() { missed_ = true; }
-  [[nodiscard]] CellResult result() const {
-    CellResult result = result_;
-    if (missed_) result.status = CellStatus::no_answer;
-    if (count_ > 0) {
-      result.chain_rms_mm = std::sqrt(chain_squares_ / (2.0 * count_));
-      result.tool_rms_mm = std::sqrt(tool_squares_ / count_);
-    }
-    return result;
-  }
-
- private:
-  CellResult result_;
-  double chain_squares_ = 0.0;
-  double tool_squares_ = 0.0;
-  int count_ = 0;
-  bool missed_ = false;
-};
-
 CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const CompensationMap& map,
                               const model::Machine& machine) {
   const MachineLevel& level = spec.machines[at[0]];
@@ -113,23 +86,27 @@ CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const Com
     return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);
   };
   const model::Bed marked{span(machine.bed.width_mm), span(machine.bed.height_mm)};
-  ErrorSum errors;
+  CellResult result;
+  std::vector<Vector2d> chain_mm, tool_mm;
   for (const model::MarkPoint& mark :
        raster(area_of(marked), spec.evaluation_columns, spec.evaluation_rows, RasterOf::nodes)) {
     const BedPoint p = model::identity_placement(mark);
     const auto answer = map.lengths(mark);
     const auto real = truth.at(p);
     if (!answer || !real) {
-      errors.miss();
+      result.status = CellStatus::no_answer;
       continue;
     }
-    model::ChainLengths disturbed{};
-    if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
-    const Vector2d chain =
-        difference(answer->lengths, real->lengths) - level.unmodelled_mm * vector_of(disturbed);
-    errors.add(chain, real->position_jacobian.inverse() * chain);
+    const Vector2d chain = difference(answer->lengths, real->lengths) -
+                           level.unmodelled_mm * vector_of(synthetic::unmodelled(p));
+    chain_mm.push_back(chain);
+    tool_mm.emplace_back(real->position_jacobian.inverse() * chain);
+    result.chain_max_mm = std::max(result.chain_max_mm, chain.lpNorm<Eigen::Infinity>());
+    result.tool_max_mm = std::max(result.tool_max_mm, tool_mm.back().norm());
   }
-  return errors.result();
+  result.chain_rms_mm = rms(chain_mm);
+  result.tool_rms_mm = rms_length(tool_mm);
+  return result;
 }
 
 }  // namespace

@@ -48,6 +48,9 @@ constexpr int kLatticeRows = 5;
 constexpr int kPointsOfLine = 13;
 constexpr int kPointsOfSide = 5;
 
+ToolPosition plus(ToolPosition a, ToolPosition b) { return {a.x_mm + b.x_mm, a.y_mm + b.y_mm}; }
+ToolPosition minus(ToolPosition a, ToolPosition b) { return {a.x_mm - b.x_mm, a.y_mm - b.y_mm}; }
+
 std::vector<ToolPosition> straight(ToolPosition from, ToolPosition to, int count) {
   std::vector<ToolPosition> points;
   for (int i = 0; i < count; ++i) {
@@ -76,18 +79,14 @@ std::vector<AtlasLine> lattice_over(const MechanismExtent& extent) {
   }
   const ToolPosition centre = extent.centre();
   const double half = 0.15 * std::min(width, height);
-  const std::array<ToolPosition, 4> corners = {
-      ToolPosition{centre.x_mm - half, centre.y_mm - half},
-      ToolPosition{centre.x_mm + half, centre.y_mm - half},
-      ToolPosition{centre.x_mm + half, centre.y_mm + half},
-      ToolPosition{centre.x_mm - half, centre.y_mm + half}};
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    lines.push_back({straight(corners[i], corners[(i + 1) % corners.size()], kPointsOfSide), true});
+  constexpr double kCorners[][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const auto corner = [&](int i) {
+    return plus(centre, {half * kCorners[i % 4][0], half * kCorners[i % 4][1]});
+  };
+  for (int i = 0; i < 4; ++i)
+    lines.push_back({straight(corner(i), corner(i + 1), kPointsOfSide), true});
   return lines;
 }
-
-ToolPosition plus(ToolPosition a, ToolPosition b) { return {a.x_mm + b.x_mm, a.y_mm + b.y_mm}; }
-ToolPosition minus(ToolPosition a, ToolPosition b) { return {a.x_mm - b.x_mm, a.y_mm - b.y_mm}; }
 
 /// The numbers of the mark at a true place: the inverse of place_of_mark(). Effects of the paper are
 /// some parts in a thousand, so that each step gains two digits at least.

@@ -20,23 +20,21 @@ ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& appl
                         BedPoint centre) {
   ShiftedSquare square;
   square.centre = centre;
-  const double half = 0.5 * kSquareMm;
-  const std::array<BedPoint, 4> corners = {BedPoint{centre.x_mm - half, centre.y_mm - half},
-                                           BedPoint{centre.x_mm + half, centre.y_mm - half},
-                                           BedPoint{centre.x_mm + half, centre.y_mm + half},
-                                           BedPoint{centre.x_mm - half, centre.y_mm + half}};
+  constexpr double kHalfMm = 0.5 * kSquareMm;
+  constexpr double kCorners[][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   std::vector<Visit> visits;
-  for (const BedPoint& corner : corners)
-    visits.push_back({corner, static_cast<int>(visits.size())});
+  for (const auto& [x, y] : kCorners) {
+    visits.push_back(
+        {{centre.x_mm + x * kHalfMm, centre.y_mm + y * kHalfMm}, static_cast<int>(visits.size())});
+  }
   const std::vector<Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
   std::array<Vector2d, 4> cut;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (std::size_t i = 0; i < cut.size(); ++i) {
     square.corner_shift_mm[i] = shift[i];
-    cut[i] = vector_of(corners[i]) + shift[i];
+    cut[i] = vector_of(visits[i].position) + shift[i];
   }
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    square.side_mm[i] = (cut[(i + 1) % corners.size()] - cut[i]).norm();
-  }
+  for (std::size_t i = 0; i < cut.size(); ++i)
+    square.side_mm[i] = (cut[(i + 1) % cut.size()] - cut[i]).norm();
   square.diagonal_mm = {(cut[2] - cut[0]).norm(), (cut[3] - cut[1]).norm()};
   return square;
 }
@@ -47,23 +45,23 @@ EffectPicture picture_effect(const Machine& machine, const model::effects::Effec
                              model::effects::EffectSide side, const std::vector<double>& values,
                              const StatedNoise& noise) {
   EffectPicture picture;
-  picture.applied = model::effects::applied(effect, side, values);
+  const model::AppliedEffect applied = model::effects::applied(effect, side, values);
+  picture.applied = applied;
   picture.noise = noise;
   picture.columns = kColumns;
   picture.rows = kRows;
   const std::vector<Visit> visits = regular_session(machine, kColumns, kRows);
   const StrengthTable table(machine, visits, noise);
-  const std::vector<Vector2d> stated =
-      signature(machine, {picture.applied}, visits).tool_shift_mm();
-  const std::vector<Vector2d> calibrated = table.calibrated_shift_mm(picture.applied);
+  const std::vector<Vector2d> stated = signature(machine, {applied}, visits).tool_shift_mm();
+  const std::vector<Vector2d> calibrated = table.calibrated_shift_mm(applied);
   for (std::size_t i = 0; i < visits.size(); ++i) {
     picture.marks.push_back(
         {model::identity_placement(visits[i].position), stated[i], calibrated[i]});
   }
   // In the middle, and towards a lower corner, where most effects are largest.
-  picture.squares.push_back(square_at(machine, picture.applied, {0.0, 0.0}));
-  picture.squares.push_back(square_at(
-      machine, picture.applied, {-0.42 * machine.bed.width_mm, -0.38 * machine.bed.height_mm}));
+  picture.squares.push_back(square_at(machine, applied, {0.0, 0.0}));
+  picture.squares.push_back(
+      square_at(machine, applied, {-0.42 * machine.bed.width_mm, -0.38 * machine.bed.height_mm}));
   for (const auto& [columns, rows] : kGrids) {
     const bool same = columns == kColumns && rows == kRows;
     const StrengthTable other =

@@ -133,10 +133,10 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
   Random length_noise(spec.seed, kLengthNoise);
   Random position_noise(spec.seed, kPositionNoise);
   Random slips(spec.seed, kBadPoints);
-  auto shuffled = numbers_below(marks.size());
-  slips.shuffle(shuffled);
-  shuffled.resize(std::min(shuffled.size(), as_size(spec.bad.count)));
-  sort(shuffled);
+  bad_points = numbers_below(marks.size());
+  slips.shuffle(bad_points);
+  bad_points.resize(std::min(bad_points.size(), as_size(spec.bad.count)));
+  sort(bad_points);
 
   const double position_step = step_of(noise.position_rounding_mm, noise.position_mm);
   const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
@@ -145,11 +145,10 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
     MarkPoint mark = marks[i];
     mark.x_mm += draw(position_noise, noise, noise.position_mm);
     mark.y_mm += draw(position_noise, noise, noise.position_mm);
-    if (std::binary_search(shuffled.begin(), shuffled.end(), i)) {
+    if (std::binary_search(bad_points.begin(), bad_points.end(), i)) {
       const double direction = slips.uniform(-std::numbers::pi, std::numbers::pi);
       mark.x_mm += spec.bad.size_mm * std::cos(direction);
       mark.y_mm += spec.bad.size_mm * std::sin(direction);
-      bad_points.push_back(i);
     }
     const double left = lengths[i].left_mm + draw(length_noise, noise, noise.length_mm);
     const double right = lengths[i].right_mm + draw(length_noise, noise, noise.length_mm);
@@ -164,10 +163,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
 std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
   if (spec.stated) return spec.stated;
   if (spec.noise.length_mm == 0.0 && spec.noise.position_mm == 0.0) return std::nullopt;
-  StatedNoise stated;
-  stated.length_mm = spec.noise.length_mm;
-  stated.position_mm = spec.noise.position_mm;
-  return stated;
+  return StatedNoise{spec.noise.length_mm, spec.noise.position_mm};
 }
 
 // Reports the number of visits read so far.
@@ -197,21 +193,9 @@ void offset_setting(Machine& machine, model::SheetPlacement& sheet, const Settin
   }
 }
 
-namespace {
-
-/// The stated machine with the hidden effects appended, before settings are offset.
-Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffect>& hidden) {
-  Machine machine = stated;
-  append_all(machine.effects, hidden);
-  return machine;
-}
-
-}  // namespace
-
 SyntheticTruth truth_of(const Machine& stated, const SyntheticSpec& spec) {
-  SyntheticTruth truth;
-  truth.machine = with_effects(stated, spec.hidden);
-  truth.offsets = drawn_offsets(stated, spec);
+  SyntheticTruth truth{stated, drawn_offsets(stated, spec), {}};
+  append_all(truth.machine.effects, spec.hidden);
   for (const SettingOffset& offset : truth.offsets) {
     offset_setting(truth.machine, truth.sheet, offset);
   }
@@ -255,10 +239,9 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
     return tl::unexpected(lengths.error().at(answer.sheet.to_mark(place)));
   }
   answer.lengths = *lengths;
-  for (std::size_t i = 0; spec.unmodelled_mm != 0.0 && i < visits.size(); ++i) {
-    const ChainLengths added = unmodelled(visits[i].position);
-    answer.lengths[i].left_mm += spec.unmodelled_mm * added.left_mm;
-    answer.lengths[i].right_mm += spec.unmodelled_mm * added.right_mm;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    for (const model::Side side : model::kSides)
+      answer.lengths[i][side] += spec.unmodelled_mm * unmodelled(visits[i].position)[side];
   }
   const model::MarkFrame mark_frame(answer.machine);
   std::vector<MarkPoint> written;
@@ -279,7 +262,8 @@ PlacesRead read_places(const Machine& stated, const std::vector<model::AppliedEf
                        const std::vector<Visit>& visits, model::Model model,
                        const Progress& progress) {
   PlacesRead result;
-  const Machine machine = with_effects(stated, hidden);
+  Machine machine = stated;
+  append_all(machine.effects, hidden);
   const model::ReadingModel reading_model(machine, model);
   const model::MarkFrame mark_frame(machine);
   std::vector<Visit> reached;

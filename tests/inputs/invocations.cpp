@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/inputs/invocations.hpp"
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <sstream>
 
 #include "tests/inputs/input_folder.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::inputs {
 
@@ -48,6 +50,18 @@ cli::Facts facts_of(const std::string& names) {
 }
 
 }  // namespace
+
+const std::vector<cli::OptionRule>& rules() {
+  // Checks and places of other tables keep what they point at.
+  static CLI::App app;
+  static const std::vector<cli::OptionRule> all = [] {
+#define CHAINTRUE_VERB(id) cli::add_##id(cli::Verb(app));
+#include "tools/cli/verbs.def"
+#undef CHAINTRUE_VERB
+    return cli::declared().rules;
+  }();
+  return all;
+}
 
 const std::vector<Invocation>& invocations() {
   static const std::vector<Invocation> all = [] {

@@ -21,11 +21,13 @@ struct Invocation {
 };
 const std::vector<Invocation>& invocations();
 
+/// The rules of all verbs, in the order in which the verbs are made.
+const std::vector<cli::OptionRule>& rules();
+
 /// The first rule of the command that refuses the option there; null where it acts.
 inline const cli::OptionRule* refusal_of(std::string_view verb, std::string_view option,
                                          cli::Facts facts) {
-  static const std::vector<cli::OptionRule> rules = cli::option_rules();
-  for (const cli::OptionRule& rule : rules) {
+  for (const cli::OptionRule& rule : rules()) {
     if (rule.verb == verb && rule.option == option && (rule.acts_on & facts) == 0) return &rule;
   }
   return nullptr;

@@ -40,7 +40,9 @@ TEST(DrawingPage, ThePlanHasACrossAtEveryEndOfEveryMeasure) {
 }
 
 TEST(DrawingPage, GcodeLiftsThePenBetweenLines) {
-  const std::string text = drawing_gcode(planned(), {"M5", "M3 S90"}, 1500.0);
+  TestDrawing drawing = planned();
+  drawing.pen = {"M5", "M3 S90"};
+  const std::string text = drawing_gcode(drawing);
   EXPECT_TRUE(text.starts_with("G21\nG90\nM5\n")) << text.substr(0, 40);
   // The top line of an area from -400 to 400 at -300, in coordinates from the left pin.
   EXPECT_THAT(text, HasSubstr("G0 X200.000 Y-300.000\nM3 S90\nG1 X1000.000 Y-300.000 F1500\nM5\n"));

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/anchors_document.hpp"
 
 #include <fmt/format.h>
 
-#include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/map_document.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A fit of four belts in words.
-#include "tools/cli/anchors_document.hpp"
 
 #include <fmt/format.h>
 
@@ -36,37 +35,30 @@ std::string sized(const grid::CauseInAnchorFit& cause) {
       diagnosis::percent(cause.probability));
 }
 
-/// Causes that are more likely than not, except yielding under the pull, which every frame shows.
-void list_open_causes(const BeltsFit& fit, Section& section) {
-  constexpr double kLikely = 0.5;
-  std::vector<std::string> causes;
-  for (const grid::CauseInAnchorFit& cause : fit.causes) {
-    const bool gives = cause.effect == model::belts::anchor_flex.id ||
-                       cause.effect == model::belts::belt_stretch.id;
-    if (gives || !(cause.probability > kLikely)) continue;
-    if (std::string text = sized(cause); !text.empty()) causes.push_back(std::move(text));
-  }
-  if (causes.empty()) return;
-  section.say(
-      fmt::format("Included in these anchors: {}. chaintrue diagnose shows what to inspect.",
-                  diagnosis::joined(causes, "and")));
-}
-
+/// Yielding under the pull, which every frame shows, and other causes that are more likely than not.
 void list_causes(const BeltsFit& fit, Section& section) {
+  constexpr double kLikely = 0.5;
   if (fit.causes.empty()) return;
+  std::vector<std::string> others;
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
       section.say(
           fmt::format("The anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; the fit "
                       "allows for this.",
                       cause.parameters.at("give_mm"), cause.sigma));
+    } else if (cause.effect == model::belts::belt_stretch.id) {
+      section.say(fmt::format(
+          "At the motors' pull the belts are {} longer than counted; the fit allows for this.",
+          share_in_words(cause.parameters.at("elongation"), cause.sigma)));
+    } else if (cause.probability > kLikely) {
+      if (std::string text = sized(cause); !text.empty()) others.push_back(std::move(text));
     }
-    if (cause.effect != model::belts::belt_stretch.id) continue;
-    section.say(fmt::format(
-        "At the motors' pull the belts are {} longer than counted; the fit allows for this.",
-        share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
-  list_open_causes(fit, section);
+  if (!others.empty()) {
+    section.say(
+        fmt::format("Included in these anchors: {}. chaintrue diagnose shows what to inspect.",
+                    diagnosis::joined(others, "and")));
+  }
   section.say(
       "The anchors' sigmas allow for other causes of usual size, such as a belt with a wrong zero.",
       Detail::verbose);
@@ -182,9 +174,8 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
 }
 
 double least_known_mm(const BeltsFit& fit) {
-  double worst_mm = 0.0;
-  for (const auto& c : fit.coordinates) worst_mm = std::max(worst_mm, c.sigma_mm);
-  return worst_mm;
+  return grid::max_element(fit.coordinates, grid::ascending(&grid::AnchorCoordinate::sigma_mm))
+      ->sigma_mm;
 }
 
 }  // namespace

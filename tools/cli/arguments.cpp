@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/arguments.hpp"
 
 #include <fmt/format.h>
-
+#include <CLI/CLI.hpp>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "grid/containers.hpp"
-#include "tools/cli/option_checks.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -89,12 +85,8 @@ std::vector<GivenOption> Verb::given_options() const {
 
 void Verb::refuse_idle_options(Facts facts) const {
   OptionProblems problems;
-  for (const CLI::Option* option : app_->get_options()) {
-    if (option->count() == 0) continue;
-    const std::string name = "--" + option->get_single_name();
-    const bool is_flag = option->get_items_expected_max() == 0;
-    const std::string value =
-        is_flag ? "given" : fmt::format("{}", fmt::join(option->results(), " "));
+  for (const auto& [name, words] : given_options()) {
+    const std::string value = words.empty() ? "given" : fmt::format("{}", fmt::join(words, " "));
     for (const OptionRule& rule : declared().rules) {
       const bool is_harmless = !rule.harmless.empty() && value == rule.harmless;
       if (rule.verb != path() || rule.option != name) continue;
@@ -120,15 +112,6 @@ Verb Verb::with_name() const {
   CLI::App* verb = app_;
   while (verb->get_name().empty() && verb->get_parent() != nullptr) verb = verb->get_parent();
   return Verb(*verb);
-}
-
-std::vector<OptionRule> option_rules() {
-  // Checks and places of other tables keep what they point at.
-  static CLI::App app;
-#define CHAINTRUE_VERB(id) add_##id(Verb(app));
-#include "tools/cli/verbs.def"
-#undef CHAINTRUE_VERB
-  return declared().rules;
 }
 
 VerbParts parts_of(CLI::App& verb) {
@@ -163,5 +146,48 @@ void usage_error(const std::string& verb, const std::string& sentence) {
 }
 
 void missing_option(const std::string& names) { throw CLI::RequiredError(names); }
+
+void OptionProblems::add(std::string_view option, std::string value, std::string expected,
+                         ProblemKind kind) {
+  problems_.push_back(
+      {"command line", std::string(option), std::move(value), std::move(expected), {}, kind});
+}
+
+void OptionProblems::require(std::string_view option, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most),
+      ProblemKind::out_of_range);
+}
+
+void OptionProblems::take_from(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    grid::append_all(problems_, error.problems());
+  }
+}
+
+void OptionProblems::throw_if_any() const {
+  if (!problems_.empty()) throw InputError(problems_);
+}
+
+Declared& declared() {
+  static Declared all;
+  return all;
+}
+
+void add_option_check(Verb verb, std::function<void(OptionProblems&)> check) {
+  declared().checks.push_back({verb, std::move(check)});
+}
+
+void check_command_line() {
+  OptionProblems problems;
+  problems.take_from([] { declared().misread.throw_if_any(); });
+  for (const DeclaredCheck& one : declared().checks) {
+    if (one.verb.is_chosen()) one.check(problems);
+  }
+  problems.take_from(check_places);
+  problems.throw_if_any();
+}
 
 }  // namespace chaintrue::cli

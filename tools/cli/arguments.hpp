@@ -159,13 +159,17 @@ struct Value {
   /// Declares an option that sets the variable.
   std::function<CLI::Option*(Verb verb, const std::string& names, const std::string& help)> declare;
 
+  /// This variable, with more done to its option.
+  using Change = std::function<void(Verb verb, const std::string& names, CLI::Option& option)>;
+  [[nodiscard]] Value with(Change change) const;
+
  private:
   Value(const files::Range& range, bool is_whole, Take take, std::optional<double> usual = {});
   Value(std::string usual, std::string expected, std::function<bool(const std::string&)> take);
 };
-Value required(Value value);
+Value required(const Value& value);
 /// Its default is not shown.
-[[nodiscard]] Value without_default(Value value);
+[[nodiscard]] Value without_default(const Value& value);
 
 /// An option has an effect if one of the facts holds; `otherwise` states what is expected if none
 /// does: "to be left out of holes: ...". If an option has several rules, the first that refuses it is
@@ -195,8 +199,6 @@ struct OptionRule {
   std::string otherwise;
   std::string harmless;
 };
-/// The rules of all verbs, in the order in which the verbs were made.
-std::vector<OptionRule> option_rules();
 
 /// An option of the command line, by its longest name, with the words given for it: none for a
 /// flag.

@@ -11,10 +11,6 @@
 #include "grid/files/check_file.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/map/check.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/grid_input.hpp"
-#include "tools/cli/progress.hpp"
-#include "tools/cli/settings_file.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/document.hpp"
 

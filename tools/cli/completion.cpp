@@ -24,24 +24,19 @@ struct Command {
   std::vector<CLI::Option*> arguments;  ///< not among the parts' options
 };
 
-void walk(CLI::App& app, const Words& words, std::vector<Command>& all) {
+/// Of this verb, whose words these are, and of those below.
+std::vector<Command> commands_of(CLI::App& app, const Words& words = {}) {
   Command command{words, &app, parts_of(app), {}};
   std::erase_if(command.parts.options, [&](CLI::Option* option) {
     if (option->get_positional()) command.arguments.push_back(option);
     return option->get_positional();
   });
-  const std::vector<CLI::App*> verbs = command.parts.verbs;
-  all.push_back(std::move(command));
-  for (CLI::App* verb : verbs) {
+  std::vector<Command> all = {command};
+  for (CLI::App* verb : command.parts.verbs) {
     Words below = words;
     below.push_back(verb->get_name());
-    walk(*verb, below, all);
+    grid::append_all(all, commands_of(*verb, below));
   }
-}
-
-std::vector<Command> commands_of(CLI::App& app) {
-  std::vector<Command> all;
-  walk(app, {}, all);
   return all;
 }
 

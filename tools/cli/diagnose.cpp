@@ -27,11 +27,6 @@
 #include "grid/observation/measured_grid.hpp"
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/grid_input.hpp"
-#include "tools/cli/made_by.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

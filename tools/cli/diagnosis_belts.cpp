@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 
-#include "tools/cli/diagnosis_charts.hpp"
+#include "grid/raster.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 
 namespace chaintrue::cli {
@@ -112,6 +112,121 @@ Light drawn_settings_light(const Diagnosis& found) {
                                  [](const DrawnSetting& own) { return own.off; });
   if (off == 0) return {Tone::good, "Settings right?", "yes"};
   return {Tone::caution, "Settings right?", fmt::format("{} off: type them in", off)};
+}
+
+using diagnosis::BeltPlacePicture;
+using diagnosis::BeltsFindings;
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+/// From Okabe and Ito's palette, distinguishable with every colour vision.
+constexpr model::PerBelt<const char*> kColors = {report::kBeforeColor, report::kAfterColor,
+                                                 report::kFourthColor, report::kThirdColor};
+
+/// The longest stroke of a good reading, as a share of the frame's width.
+constexpr double kLongestStroke = 0.06;
+/// The largest ellipse.
+constexpr double kLargestEllipse = 0.05;
+
+double width_mm(const BeltsFindings& found) {
+  const auto& a = found.machine.anchors;
+  return std::max(a.tr.x_mm, a.br.x_mm) - std::min(a.tl.x_mm, a.bl.x_mm);
+}
+
+/// One magnification for the residuals with the anchors alone and with the causes.
+double magnification(const BeltsFindings& found) {
+  double most = 0.0;
+  for (const BeltPlacePicture& place : found.places) {
+    for (const Belt belt : kBelts) {
+      if (!place.bad[belt]) most = std::max(most, std::abs(place.before_mm[belt]));
+    }
+  }
+  return most > 0.0 ? report::round_down_125(kLongestStroke * width_mm(found) / most) : 1.0;
+}
+
+double sigma_mm(const BeltsFindings& found, Belt belt, char axis) {
+  const std::string wanted = fmt::format("{}_{}_mm", name(belt), axis);
+  for (const auto& c : found.coordinates) {
+    if (c.name == wanted) return c.sigma_mm;
+  }
+  return 0.0;
+}
+
+double ellipse_magnification(const BeltsFindings& found) {
+  double most = 0.0;
+  for (const auto& c : found.coordinates) most = std::max(most, c.sigma_mm);
+  return most > 0.0
+             ? std::max(1.0, report::round_down_125(kLargestEllipse * width_mm(found) / most))
+             : 1.0;
+}
+
+DataTable anchors_table(const BeltsFindings& found) {
+  DataTable table{
+      "anchors",
+      {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"}};
+  for (const Belt belt : kBelts) {
+    const model::Anchor& anchor = found.machine.anchors[belt];
+    table.rows.push_back({std::string(model::words(belt)), anchor.x_mm, anchor.y_mm,
+                          sigma_mm(found, belt, 'x'), sigma_mm(found, belt, 'y'),
+                          std::string(kColors[belt]), belt == Belt::tl || belt == Belt::bl,
+                          model::is_upper(belt)});
+  }
+  return table;
+}
+
+DataTable strokes_table(const BeltsFindings& found,
+                        model::PerBelt<double> BeltPlacePicture::*which) {
+  DataTable table{"strokes",
+                  {"name", "x_mm", "y_mm", "way_x", "way_y", "off_mm", "words", "color", "is_bad"}};
+  for (std::size_t k = 0; k < found.places.size(); ++k) {
+    const BeltPlacePicture& place = found.places[k];
+    for (const Belt belt : kBelts) {
+      const model::Anchor& anchor = found.machine.anchors[belt];
+      const double x = anchor.x_mm - place.at.x_mm;
+      const double y = anchor.y_mm - place.at.y_mm;
+      const double away = std::max(std::hypot(x, y), 1e-9);
+      const double off = (place.*which)[belt];
+      // A bad reading's stroke would leave the picture.
+      const double longest = 4.0 * kLongestStroke * width_mm(found) / magnification(found);
+      table.rows.push_back({fmt::format("point {}", k + 1), place.at.x_mm, place.at.y_mm, x / away,
+                            y / away, place.bad[belt] ? std::clamp(off, -longest, longest) : off,
+                            std::string(model::words(belt)), std::string(kColors[belt]),
+                            place.bad[belt]});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+Chart frame_chart(const BeltsFindings& found, std::string title,
+                  model::PerBelt<double> BeltPlacePicture::*which) {
+  Chart chart{.specification = "belt_frame", .title = std::move(title)};
+  DataTable frame{"frame", {"x_mm", "y_mm"}};
+  const auto& a = found.machine.anchors;
+  interp::Rectangle area{};
+  for (const model::Anchor& corner : {a.bl, a.tl, a.tr, a.br, a.bl}) {
+    frame.rows.push_back({corner.x_mm, corner.y_mm});
+    grid::take_in(area, {corner.x_mm, corner.y_mm});
+  }
+  const double margin = 0.05 * area.width();
+  const double drawn = magnification(found);
+  const double ellipses = ellipse_magnification(found);
+  const double key_mm = report::round_down_125(kLongestStroke * width_mm(found) / drawn);
+  chart.data = {std::move(frame), anchors_table(found), strokes_table(found, which)};
+  chart.signals = {
+      {"x_min_mm", area.x_min - margin},
+      {"x_max_mm", area.x_max + margin},
+      {"y_min_mm", area.y_min - margin},
+      {"y_max_mm", area.y_max + margin},
+      {"magnification", drawn},
+      {"key_mm", key_mm},
+      {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, drawn)},
+      {"ellipses", ellipses},
+      {"ellipses_text", fmt::format("anchors: one sigma, {:g} times as large", ellipses)}};
+  return chart;
 }
 
 }  // namespace chaintrue::cli

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/diagnosis_charts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "grid/raster.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -110,8 +109,8 @@ Chart strip_chart(const Diagnosis& found, const std::vector<Panel>& panels, int 
 }  // namespace
 
 Outline bed_of(const Diagnosis& found) {
-  const Bed& bed = found.extended_machine.bed;
-  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+  const interp::Rectangle bed = grid::area_of(found.extended_machine.bed);
+  return {bed.x_min, bed.x_max, bed.y_min, bed.y_max};
 }
 
 Arrow arrow_of(const PointPicture& point, const Eigen::Vector2d& shift_mm) {

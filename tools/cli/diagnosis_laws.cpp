@@ -10,9 +10,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -57,14 +55,6 @@ std::string axis_title(const Law& law) {
 
 std::vector<std::pair<double, double>> curve_of(const Law& law) {
   const double span = is_folded(law) ? law.parameters[1].value : law.to - law.from;
-  std::vector<std::pair<double, double>> curve;
-  if (is_folded(law)) {
-    for (int k = 0; k <= kCurvePoints; ++k) {
-      const double off = span * k / kCurvePoints;
-      curve.emplace_back(degrees_of(law, off), value_of(law, law.from + off));
-    }
-    return curve;
-  }
   std::vector<double> at;
   for (int k = 0; k <= kCurvePoints; ++k) at.push_back(law.from + span * k / kCurvePoints);
   if (law.shape == LawShape::step) {
@@ -72,7 +62,9 @@ std::vector<std::pair<double, double>> curve_of(const Law& law) {
     const double place = std::clamp(law.parameters[1].value, law.from, law.to);
     at = {law.from, place - 1e-9 * (law.to - law.from), place, law.to};
   }
-  for (const double v : at) curve.emplace_back(drawn(law, v), value_of(law, v));
+  std::vector<std::pair<double, double>> curve;
+  for (const double v : at)
+    curve.emplace_back(degrees_of(law, is_folded(law) ? v - law.from : v), value_of(law, v));
   return curve;
 }
 

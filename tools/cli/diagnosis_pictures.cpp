@@ -11,8 +11,7 @@
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/synthetic/strength.hpp"
 #include "model/reading_model.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 
 namespace chaintrue::cli {
 

@@ -10,9 +10,7 @@
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
 #include "model/effects/effect.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -95,57 +93,58 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   return residual_scatter_chart(chart);
 }
 
-double length_mm(const PointPicture& point, Side chain) { return point.lengths[chain]; }
-
 std::vector<ChartRow> length_charts(const Diagnosis& found) {
   const model::Sprocket& sprocket = found.extended_machine.sprocket;
   const double turn_mm = sprocket.teeth * sprocket.pitch_mm;
   std::vector<ChartRow> rows;
   for (const Side chain : model::kSides) {
-    Scatter plain{.title = fmt::format("Against the {} chain's length", chain_name(chain)),
-                  .caption = "",
-                  .x_title = "chain length, mm",
-                  .x = length_mm,
-                  .chain = chain};
-    Scatter folded{.title = fmt::format("Over one sprocket turn ({:g} mm)", turn_mm),
-                   .caption = "",
-                   .x_title = "mm past a full turn",
-                   .x =
-                       [turn_mm](const PointPicture& point, Side side) {
-                         const double length = length_mm(point, side);
-                         return length - turn_mm * std::floor(length / turn_mm);
-                       },
-                   .chain = chain};
-    if (chain == Side::right) {
-      plain.caption =
-          "A slope means a chain that is too long or short, a step a skipped link. The line joins "
-          "the means of the calibrated dots.";
-      folded.caption = "A wave means an eccentric sprocket.";
-    }
-    rows.push_back({{scatter_chart(found, plain), scatter_chart(found, folded)}});
+    const bool is_last = chain == Side::right;
+    rows.push_back(
+        {{scatter_chart(
+              found,
+              {.title = fmt::format("Against the {} chain's length", chain_name(chain)),
+               .caption = is_last ? "A slope means a chain that is too long or short, a step a "
+                                    "skipped link. The line joins the means of the calibrated dots."
+                                  : "",
+               .x_title = "chain length, mm",
+               .x = [](const PointPicture& point, Side side) { return point.lengths[side]; },
+               .chain = chain}),
+          scatter_chart(found, {.title = fmt::format("Over one sprocket turn ({:g} mm)", turn_mm),
+                                .caption = is_last ? "A wave means an eccentric sprocket." : "",
+                                .x_title = "mm past a full turn",
+                                .x =
+                                    [turn_mm](const PointPicture& point, Side side) {
+                                      const double length = point.lengths[side];
+                                      return length - turn_mm * std::floor(length / turn_mm);
+                                    },
+                                .chain = chain})}});
   }
   return rows;
 }
 
-ChartRow angle_charts(const Diagnosis& found) {
+/// One chart of each chain, with the caption under the first. \param title names the chain
+ChartRow charts_of_chains(const Diagnosis& found, Scatter scatter, std::string_view title) {
   ChartRow row;
   for (const Side chain : model::kSides) {
-    row.charts.push_back(scatter_chart(
-        found,
-        {.title = fmt::format("Against the {} chain's angle", chain_name(chain)),
-         .caption =
-             chain == Side::left
-                 ? "A bend at some angle means that the chain touches something below that angle."
-                 : "",
-         .x_title = "degrees below the horizontal at the sprocket",
-         .x =
-             [](const PointPicture& point, Side side) {
-               return (side == Side::left ? point.angle_left_rad : point.angle_right_rad) * 180.0 /
-                      std::numbers::pi;
-             },
-         .chain = chain}));
+    scatter.chain = chain;
+    scatter.title = fmt::format(fmt::runtime(title), chain_name(chain));
+    row.charts.push_back(scatter_chart(found, scatter));
+    scatter.caption.clear();
   }
   return row;
+}
+
+ChartRow angle_charts(const Diagnosis& found) {
+  return charts_of_chains(
+      found,
+      {.caption = "A bend at some angle means that the chain touches something below that angle.",
+       .x_title = "degrees below the horizontal at the sprocket",
+       .x =
+           [](const PointPicture& point, Side side) {
+             return (side == Side::left ? point.angle_left_rad : point.angle_right_rad) * 180.0 /
+                    std::numbers::pi;
+           }},
+      "Against the {} chain's angle");
 }
 
 ChartRow order_charts(const Diagnosis& found) {
@@ -155,22 +154,15 @@ ChartRow order_charts(const Diagnosis& found) {
     return model::effects::depends_on_visit(*cause.cause.effect);
   });
   const bool shows_rest = !of_the_visit && !found.causes.empty();
-  ChartRow row;
-  for (const Side chain : model::kSides) {
-    row.charts.push_back(scatter_chart(
-        found,
-        {.title = fmt::format("The {} chain, visit by visit{}", chain_name(chain),
-                              shows_rest ? ": what is left" : ""),
-         .caption = chain == Side::left ? "Two layers of colour mean friction or play, a slope "
-                                          "drift, a step a skipped link."
-                                        : "",
-         .x_title = "number of the visit",
-         .x = [](const PointPicture& point, Side) { return grid::as_double(*point.order); },
-         .chain = chain,
-         .by_direction = true,
-         .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm}));
-  }
-  return row;
+  return charts_of_chains(
+      found,
+      {.caption = "Two layers of colour mean friction or play, a slope drift, a step a skipped "
+                  "link.",
+       .x_title = "number of the visit",
+       .x = [](const PointPicture& point, Side) { return grid::as_double(*point.order); },
+       .by_direction = true,
+       .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm},
+      shows_rest ? "The {} chain, visit by visit: what is left" : "The {} chain, visit by visit");
 }
 
 }  // namespace

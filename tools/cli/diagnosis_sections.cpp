@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include "grid/containers.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 
 #include <fmt/format.h>
 

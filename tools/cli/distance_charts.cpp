@@ -6,10 +6,9 @@
 #include <numbers>
 
 #include "grid/containers.hpp"
-#include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/sheet.hpp"
 
 namespace chaintrue::cli {
 namespace {

@@ -15,9 +15,8 @@
 #include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "model/reading_model.hpp"
-#include "tools/cli/effect_argument.hpp"
-#include "tools/cli/effect_drawing.hpp"
-#include "tools/cli/progress.hpp"
+#include "tools/cli/simulate_options.hpp"
+#include "tools/cli/svg.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -67,15 +66,11 @@ std::vector<const Effect*> listed(const EffectsOptions& options) {
 }
 
 void list_catalogue(const std::vector<const Effect*>& effects) {
-  std::string station;
-  bool declared = false;
+  std::string_view heading;
   for (const Effect* effect : effects) {
-    if (effect->law != nullptr && !declared) fmt::print("\ndeclared\n");
-    declared = declared || effect->law != nullptr;
-    if (!declared && name(effect->station) != station) {
-      station = name(effect->station);
-      fmt::print("{}{}\n", effect == effects.front() ? "" : "\n", station);
-    }
+    const std::string_view own = effect->law != nullptr ? "declared" : name(effect->station);
+    if (own != heading) fmt::print("{}{}\n", heading.empty() ? "" : "\n", own);
+    heading = own;
     std::string parameters;
     for (const EffectParameter& parameter : effect->parameters) {
       parameters += fmt::format("{}{}", parameters.empty() ? "" : ",", parameter.name);
@@ -268,9 +263,9 @@ int show_picture(const Effect& effect, const EffectsOptions& options, const Mach
     return kDone;
   }
   describe(effect);
-  const std::string side_name(name(side));
-  fmt::print("\nOn \"{}\" with {}{}", machine.name, effect.id,
-             side_name.empty() ? "" : " " + side_name);
+  fmt::print("\nOn \"{}\" with {}{}{}", machine.name, effect.id,
+             picture.applied.side.empty() ? "" : " ", picture.applied.side);
+
   for (const auto& [key, value] : picture.applied.parameters)
     fmt::print(", {} = {}", key, short_number(value));
   fmt::print("\nerror of the tool in mm (marks visited row by row):\n");
@@ -290,13 +285,13 @@ int run_effects(const EffectsOptions& options) {
   }
   if (!options.atlas.empty())
     return write_atlas(options.atlas, options.id, options.declared, options.output);
-  if (options.id.empty()) {
-    if (!options.json) {
-      list_catalogue(listed(options));
-      say_next({"effects", std::string(model::effects::catalogue().front()->id)});
-      return kDone;
-    }
+  if (options.id.empty() && options.json) {
     fmt::print("{}", files::write_catalogue(listed(options)));
+    return kDone;
+  }
+  if (options.id.empty()) {
+    list_catalogue(listed(options));
+    say_next({"effects", std::string(model::effects::catalogue().front()->id)});
     return kDone;
   }
   const Machine machine = machine_of(options);

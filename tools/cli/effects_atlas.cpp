@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include "tools/cli/effect_drawing.hpp"
+#include "tools/cli/svg.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,12 @@
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/effect_file.hpp"
+#include "grid/raster.hpp"
 #include "grid/synthetic/atlas.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 #include "model/reading_model.hpp"
-#include "tools/cli/option_checks.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/progress.hpp"
-#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/typeset.hpp"
@@ -91,20 +90,13 @@ struct View {
 };
 
 View view_of(const std::vector<AtlasLine>& lines) {
-  double right = lines.front().points.front().x_mm;
-  double bottom = lines.front().points.front().y_mm;
-  View view{right, bottom};
+  const ToolPosition first = lines.front().points.front();
+  interp::Rectangle box{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
   for (const AtlasLine& line : lines) {
-    for (const ToolPosition& point : line.points) {
-      view.left_mm = std::min(view.left_mm, point.x_mm);
-      view.top_mm = std::max(view.top_mm, point.y_mm);
-      right = std::max(right, point.x_mm);
-      bottom = std::min(bottom, point.y_mm);
-    }
+    for (const ToolPosition& point : line.points) grid::take_in(box, {point.x_mm, point.y_mm});
   }
-  view.scale = (kPictureWidth - 2.0 * kPad) / (right - view.left_mm);
-  view.height = 2.0 * kPad + view.scale * (view.top_mm - bottom);
-  return view;
+  const double scale = (kPictureWidth - 2.0 * kPad) / box.width();
+  return {box.x_min, box.y_max, scale, 2.0 * kPad + scale * box.height()};
 }
 
 /// Errors `times` as large; a line is broken where the machine cannot hold the tool.
@@ -194,10 +186,10 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
                            ? 1.0
                            : report::round_down_125(wanted / picture.largest_shift_mm);
   const AtlasFrame straight = as_commanded(atlas.lines);
+  const std::string usual = escaped(words_of_size(picture, picture.frames[picture.usual].size));
   std::string svg =
       fmt::format("<figure>\n<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
-                  kPictureWidth, view.height,
-                  escaped(words_of_size(picture, picture.frames[picture.usual].size)));
+                  kPictureWidth, view.height, usual);
   svg += paths(view, atlas.lines, straight, 1.0, report::kNeutralColor);
   const std::size_t nothing = place_of_nothing(picture);
   const std::size_t shown = picture.usual + (picture.usual >= nothing ? 1 : 0);
@@ -218,8 +210,7 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
   svg += fmt::format(
       "<input type=\"range\" min=\"0\" max=\"{}\" step=\"1\" value=\"{}\" aria-label=\"size of the "
       "cause\">\n<output>{}</output>\n</figure>\n",
-      picture.frames.size(), shown,
-      escaped(words_of_size(picture, picture.frames[picture.usual].size)));
+      picture.frames.size(), shown, usual);
   return svg;
 }
 

@@ -14,12 +14,8 @@
 #include "grid/files/map_file.hpp"
 #include "grid/plotter/settings_to_paste.hpp"
 #include "model/effects/catalogue.hpp"
-#include "tools/cli/anchors_document.hpp"
 #include "tools/cli/export_numbers.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/target.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -136,6 +132,13 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   return kDone;
 }
 
+/// \param what the files that are exported
+void has_files(Verb verb, ExportCommand& command, const char* what) {
+  verb.has({{"file", required(reads(command.input)), what},
+            {"-o,--output", writes(command.output, {Origin::list}),
+             "Output file; - is standard output"}});
+}
+
 void add_maslow4(Verb verb) {
   auto [maslow4, c] = verb.add_verb<ExportCommand>(
       "maslow4", "Print the lines to paste into a Maslow 4's terminal",
@@ -145,10 +148,7 @@ Example:
   build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json
   build/chaintrue export maslow4 anchors.json)",
       export_maslow4);
-  maslow4.has(
-      {{"file", required(reads(c.input)),
-        "A chaintrue_anchors file from fit, or a diagnosis of belts"},
-       {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"}});
+  has_files(maslow4, c, "A chaintrue_anchors file from fit, or a diagnosis of belts");
 }
 
 int export_plotter(const ExportCommand& command) {
@@ -171,9 +171,7 @@ void add_plotter(Verb export_verb) {
   build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json
   build/chaintrue export plotter found.json)",
       export_plotter);
-  verb.has(
-      {{"file", required(reads(c.input)), "A chaintrue_plotter file that fit wrote from a drawing"},
-       {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"}});
+  has_files(verb, c, "A chaintrue_plotter file that fit wrote from a drawing");
 }
 
 }  // namespace
@@ -198,11 +196,10 @@ Example:
   build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json -o map.json
   build/chaintrue export groundcontrol map.json -o settings.ini --map-after map.after.json)",
       export_groundcontrol);
+  has_files(groundcontrol, c,
+            "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis");
   groundcontrol.has(
-      {{"file", required(reads(c.input)),
-        "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis"},
-       {"-o,--output", writes(c.output, {Origin::list}), "Output file; - is standard output"},
-       {"--map-after", writes(c.map_after, {Origin::map}),
+      {{"--map-after", writes(c.map_after, {Origin::map}),
         "With a map: also write the map to use once these numbers are typed in", facts::map,
         "to be left out, because only a map has a successor for the new numbers"}});
   add_maslow4(verb);

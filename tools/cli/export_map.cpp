@@ -10,7 +10,6 @@
 #include "grid/map/map_in_frame.hpp"
 #include "grid/map/straight_settings.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/option_checks.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -34,6 +33,13 @@ struct Written {
 };
 using WrittenOrWhy = tl::expected<Written, std::string>;
 
+std::string table_words(const files::TableModule& module) {
+  return fmt::format(
+      "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within {:.4f} mm "
+      "of the map",
+      module.columns, module.rows, module.spacing_mm, module.largest_error_mm);
+}
+
 std::string without_table(const grid::MapFailure& failure) {
   return failure.sentence() +
          ". A table needs lengths all over the map; fit the map with --outside continued";
@@ -48,12 +54,10 @@ WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
   return Written{
       std::move(module->source),
       fmt::format(
-          "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
-          "{:.4f} mm of the map, and moves are split into pieces of at most {:g} mm.\nCopy it as "
+          "{}, and moves are split into pieces of at most {:g} mm.\nCopy it as "
           "chaintrue.py into klippy/kinematics, and set kinematics: chaintrue in printer.cfg, with "
           "a [stepper_left] and a [stepper_right]. The file's first lines explain the rest.",
-          module->columns, module->rows, module->spacing_mm, module->largest_error_mm,
-          module->piece_mm)};
+          table_words(*module), module->piece_mm)};
 }
 
 /// The component is named after its file, as halcompile requires.
@@ -80,11 +84,10 @@ WrittenOrWhy linuxcnc_module(const NamedMap& named, const std::string& output) {
   if (!module) return tl::unexpected(without_table(module.error()));
   return Written{
       std::move(module->source),
-      fmt::format("{} x {} lengths of both chains, {:.0f} mm apart; between them the table is "
-                  "within {:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or "
+      fmt::format("{}{}.\nBuild and install it where LinuxCNC (2.9 or "
                   "later) runs: halcompile --install {}.c. In the machine's INI file: [KINS] "
                   "KINEMATICS = {} and JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.",
-                  module->columns, module->rows, module->spacing_mm, module->largest_error_mm,
+                  table_words(*module),
                   module->largest_error_mm > files::kTableErrorMm
                       ? ", more than intended, because this map bends within millimetres"
                       : "",

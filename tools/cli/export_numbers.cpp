@@ -9,10 +9,10 @@
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "model/effects/catalogue.hpp"
-#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/settings_file.hpp"
 
 namespace chaintrue::cli {
 namespace {

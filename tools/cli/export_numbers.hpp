@@ -11,7 +11,6 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "tools/cli/arguments.hpp"
-#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 

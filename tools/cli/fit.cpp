@@ -14,12 +14,8 @@
 #include "grid/files/names.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/threads/use_threads.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/holes_words.hpp"
-#include "tools/cli/made_by.hpp"
-#include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/progress.hpp"
+#include "tools/cli/sheet.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/grid_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {

@@ -10,9 +10,7 @@
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/random.hpp"
-#include "tools/cli/anchors_document.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/made_by.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -50,32 +48,28 @@ MeasuredBelts measured_again(const MeasuredBelts& belts, const BeltsFit& fit, st
   return result;
 }
 
-struct AnchorsAndError {
-  BeltsFit fit;
-  std::optional<BeltsError> error;
-};
-
-std::optional<AnchorsAndError> fit_again(const MeasuredBelts& belts,
-                                         const std::vector<grid::BeltHoles>& cut) {
+/// Holes are fitted together with the belts.
+tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(
+    const MeasuredBelts& belts, const std::vector<grid::BeltHoles>& cut) {
   if (cut.empty()) {
-    auto fit = diagnosis::fit_with_causes(belts);
-    if (!fit) return std::nullopt;
-    const auto error = grid::error_of_belts(*fit);
-    return AnchorsAndError{*std::move(fit), error};
+    return diagnosis::fit_with_causes(belts).map([&](BeltsFit fit) {
+      return files::FittedAnchors{belts.name, std::move(fit)};
+    });
   }
-  auto fit = diagnosis::fit_with_causes_and_holes(belts, cut);
-  if (!fit) return std::nullopt;
-  const auto error = grid::error_of_belts(fit->belts, &fit->holes);
-  return AnchorsAndError{std::move(fit->belts), error};
+  return diagnosis::fit_with_causes_and_holes(belts, cut).map([&](grid::BeltsAndHolesFit fit) {
+    return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
+  });
 }
 
 /// The error to expect of such a session. The noise that its fit finds is a sample of the simulated
 /// noise, and the error scales with it, so it is corrected for that. Empty without a fit.
 std::optional<double> expected_of_places(const MeasuredBelts& belts,
                                          const std::vector<grid::BeltHoles>& cut, double noise_mm) {
-  const auto again = fit_again(belts, cut);
-  if (!again || !again->error || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
-  return again->error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
+  const auto again = fitted(belts, cut);
+  if (!again || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
+  const auto error = grid::error_of_belts(again->fit, holes_of(*again));
+  if (!error) return std::nullopt;
+  return error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
 }
 
 /// After compensating the displacement that the holes show; empty if none was found.
@@ -171,20 +165,13 @@ BeltFiles read_all(const FitCommand& command, const InputFiles& files) {
   return all;
 }
 
-tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles& all) {
-  if (all.holes.empty()) {
-    return diagnosis::fit_with_causes(*all.belts).map([&](BeltsFit fit) {
-      return files::FittedAnchors{all.belts->name, std::move(fit)};
-    });
-  }
+/// Without a file of belts: no points, and the machine that cut the first holes.
+MeasuredBelts session_of(const BeltFiles& all) {
+  if (all.belts) return *all.belts;
   MeasuredBelts belts;
   belts.machine = all.holes.front().machine;
   belts.name = all.holes.front().set.name;
-  if (all.belts) belts = *all.belts;
-  return diagnosis::fit_with_causes_and_holes(belts, all.holes)
-      .map([&](grid::BeltsAndHolesFit fit) {
-        return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
-      });
+  return belts;
 }
 
 /// Bad points with their numbers in the file of the belts, where others were left out.
@@ -199,7 +186,8 @@ files::FittedAnchors with_file_numbers(files::FittedAnchors found, const BeltFil
 
 int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files) {
   const BeltFiles all = read_all(command, files);
-  const files::FittedAnchors found = value_of(fitted(all), files.front().name);
+  const files::FittedAnchors found =
+      value_of(fitted(session_of(all), all.holes), files.front().name);
   const std::string text = files::write_anchors(with_file_numbers(found, all), made_by(verb));
   const MeasuredBelts belts = all.belts.value_or(MeasuredBelts{});
   const grid::HolesWithBelts* holes = holes_of(found);

@@ -10,7 +10,6 @@
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"
 #include "grid/plotter/drawing_fit.hpp"
-#include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 

@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/follow_up.hpp"
+#include "tools/cli/sheet.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "grid/containers.hpp"
-#include "tools/cli/diagnosis_words.hpp"
+#include "grid/plane_vectors.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/fields.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 using diagnosis::MeasurementKind;
-
-/// The number of the next visit; empty where visits are not numbered.
-std::optional<int> next_visit(const MeasuredGrid& measured) {
-  std::optional<int> last;
-  for (const auto& point : measured.points) {
-    if (point.order) last = std::max(last.value_or(*point.order), *point.order);
-  }
-  return last ? std::optional(*last + 1) : std::nullopt;
-}
 
 /// Points of this grid give commands in place of lengths.
 bool gives_commands(const MeasuredGrid& measured) {
@@ -66,7 +57,7 @@ bool proposes(const Diagnosis& found, MeasurementKind kind) {
 }
 
 std::string point_lines(const Diagnosis& found, const MeasuredGrid& measured, bool is_json) {
-  std::optional<int> visit = next_visit(measured);
+  std::optional<int> visit = next_visit(measured.points);
   const bool commands = gives_commands(measured);
   std::vector<Fields> points;
   for (const NextMeasurement& next : found.next_measurements) {
@@ -139,9 +130,7 @@ bool is_diagnosis_of(const Diagnosis& found, const std::vector<const MeasuredHol
          std::equal(found.holes.begin(), found.holes.end(), holes.begin(), holes.end(),
                     [&](const auto& pictured, const grid::Hole& hole) {
                       return pictured.name == hole.name &&
-                             std::hypot(pictured.commanded.x_mm - hole.commanded.x_mm,
-                                        pictured.commanded.y_mm - hole.commanded.y_mm) <
-                                 kSamePlaceMm;
+                             grid::distance_mm(pictured.commanded, hole.commanded) < kSamePlaceMm;
                     });
 }
 

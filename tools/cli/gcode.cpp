@@ -5,8 +5,6 @@
 #include <string>
 
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/option_checks.hpp"
-#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -116,6 +114,10 @@ void add_limits(Verb verb, GcodeOptions& options) {
   add_option_check(verb, options, check_limits);
 }
 
+OptionRow program_row(GcodeOptions& options) {
+  return {"file", required(reads(options.program)), "G-code; - is standard input"};
+}
+
 OptionRow largest_correction_row(GcodeOptions& options) {
   return {"--largest-correction-mm",
           {options.limits.largest_correction_mm, {"mm", 0.001, 1000.0}},
@@ -138,7 +140,7 @@ void add_gcode(Verb app) {
           R"(Example:
   build/chaintrue gcode check fixtures/gcode/bracket.nc)",
           run_gcode_check);
-  check.has({{"file", required(reads(c.program)), "G-code; - is standard input"}});
+  check.has({program_row(c)});
   add_machine_options(check, c, reads(c.map));
   add_limits(check, c);
   check.has({largest_correction_row(c), {"--json", c.json, "Print JSON instead of text"}});
@@ -148,7 +150,7 @@ void add_gcode(Verb app) {
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
   build/chaintrue gcode lengths fixtures/gcode/bracket.nc --map map.json -o lengths.csv)",
                      run_gcode_lengths);
-  lengths.has({{"file", required(reads(c.program)), "G-code; - is standard input"}});
+  lengths.has({program_row(c)});
   add_map_options(lengths, c, required(reads(c.map)));
   lengths.has({{"-o,--output", writes(c.output, {Origin::table}), "CSV; - is standard output"},
                {"--every-mm",
@@ -162,7 +164,7 @@ void add_gcode(Verb app) {
   build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json
   build/chaintrue gcode compensate fixtures/gcode/bracket.nc --map map.json -o bracket.true.nc)",
                         run_gcode_compensate);
-  compensate.has({{"file", required(reads(c.program)), "G-code; - is standard input"}});
+  compensate.has({program_row(c)});
   add_machine_options(compensate, c, required(reads(c.map)));
   compensate.has({{"-o,--output", required(writes(c.output, {Origin::program})),
                    "The compensated program; - is standard output"},

@@ -11,10 +11,9 @@
 
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/made_by.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/path_report.hpp"
 
@@ -223,7 +222,12 @@ void report_result(const Compensated& result, const GcodeMachine& machine,
   say_lines(in_words(promised));
 }
 
-int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
+}  // namespace
+
+int run_gcode_compensate(const GcodeOptions& options) {
+  const GcodeMachine machine(options);
+  if (const CompensationMap* map = machine.target.as<CompensationMap>())
+    require_fit_for_cutting(not_to_cut_with(*map), options.forced);
   const GcodeText text(options.program);
   gcode::LineSource source = text.open({"the program", 1, options.no_verify ? 1 : 2});
   gcode::CompensateOptions settings = compensate_options(options, machine);
@@ -258,15 +262,6 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   if (is_usual(options))
     say_next(with_map_words(options, {"gcode", "verify", options.program, options.output}));
   return kDone;
-}
-
-}  // namespace
-
-int run_gcode_compensate(const GcodeOptions& options) {
-  const GcodeMachine machine(options);
-  if (const CompensationMap* map = machine.target.as<CompensationMap>())
-    require_fit_for_cutting(not_to_cut_with(*map), options.forced);
-  return compensate_for(machine, options);
 }
 
 }  // namespace chaintrue::cli

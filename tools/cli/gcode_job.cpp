@@ -2,7 +2,6 @@
 #include "tools/cli/gcode_job.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,12 +12,13 @@
 #include <system_error>
 #include <utility>
 
+#include "grid/belts/belt_map.hpp"
 #include "grid/containers.hpp"
 #include "grid/files/file_identity.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/progress.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/typeset.hpp"
 
@@ -28,6 +28,13 @@ namespace {
 
 int exit_code(gcode::ProblemName name) {
   return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
+}
+
+/// \throws InputError, which names what is expected, if it cannot be opened.
+gcode::LineSource lines_of_file(const std::string& path, const char* expected) {
+  auto source = gcode::LineSource::from_file(path);
+  if (!source) refuse(path, "", expected);
+  return std::move(*source);
 }
 
 std::string sentence_of(const std::vector<gcode::Problem>& problems) {
@@ -75,10 +82,8 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
 }
 
 gcode::LineSource GcodeText::open() const {
-  if (text_) return gcode::LineSource::from_text(*text_);
-  auto source = gcode::LineSource::from_file(path_);
-  if (!source) refuse(path_, "", "a file that can be read");
-  return std::move(*source);
+  return text_ ? gcode::LineSource::from_text(*text_)
+               : lines_of_file(path_, "a file that can be read");
 }
 
 gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
@@ -117,10 +122,8 @@ Words with_map_words(const GcodeOptions& options, Words words) {
 }
 
 std::string compensated_name(const std::string& program) {
-  const std::filesystem::path path(program);
-  return std::filesystem::path(path)
-      .replace_extension(".true" + path.extension().string())
-      .string();
+  std::filesystem::path path(program);
+  return path.replace_extension(".true" + path.extension().string()).string();
 }
 
 GcodeRefused::GcodeRefused(std::vector<gcode::Problem> found)
@@ -159,10 +162,74 @@ int report(const std::string& file, const gcode::Findings& findings) {
 
 gcode::LineSource written_so_far(files::PendingFile& file) {
   const std::string place = file.flushed();
-  if (place.empty()) return gcode::LineSource::from_text(file.held());
-  auto source = gcode::LineSource::from_file(place);
-  if (!source) refuse(place, "", "room for the whole file");
-  return std::move(*source);
+  return place.empty() ? gcode::LineSource::from_text(file.held())
+                       : lines_of_file(place, "room for the whole file");
+}
+
+namespace {
+
+using gcode::ErrorAlong;
+
+std::optional<double> with_path(const std::optional<gcode::ExpectedError>& map,
+                                const ErrorAlong gcode::ExpectedError::*part, double path_mm) {
+  if (!map || !((*map.*part).length_mm > 0.0)) return std::nullopt;
+  return (*map.*part).rms_mm + path_mm;
+}
+
+std::string or_null(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6f}", *value) : "null";
+}
+
+}  // namespace
+
+std::optional<double> PromisedError::measured_mm() const {
+  return with_path(map, &gcode::ExpectedError::measured, path_mm);
+}
+
+std::optional<double> PromisedError::outside_mm() const {
+  return with_path(map, &gcode::ExpectedError::outside, path_mm);
+}
+
+PromisedError promised_along(const gcode::CutPlaces& cuts, const GcodeMachine& machine,
+                             double path_mm) {
+  const auto* found = machine.target.as<files::FittedAnchors>();
+  if (found == nullptr || found->fit.scale)
+    return {cuts.expected(*machine.target.lengths), path_mm};
+  // A scale that was not taped is taken as true, so that the error excludes it.
+  BeltsFit taken_as_true = found->fit;
+  taken_as_true.scale = grid::BeltScale{};
+  return {cuts.expected(grid::BeltMap(taken_as_true, holes_of(*found))), path_mm, true};
+}
+
+std::string in_words(const PromisedError& error) {
+  std::string words;
+  if (const auto measured = error.measured_mm()) {
+    const ErrorAlong& along = error.map->measured;
+    words += fmt::format("Expect cuts within about {} mm ({} at worst, in line {}).\n",
+                         about_mm(*measured), about_mm(along.largest_mm + error.path_mm),
+                         along.weakest_line);
+  }
+  if (const auto outside = error.outside_mm()) {
+    const ErrorAlong& along = error.map->outside;
+    words += fmt::format(
+        "{:.1f} m of cuts are outside the measured part: expect those within about {} mm ({} at "
+        "worst, in line {}).\n",
+        along.length_mm / 1000.0, about_mm(*outside), about_mm(along.largest_mm + error.path_mm),
+        along.weakest_line);
+  }
+  if (error.is_without_scale && !words.empty()) {
+    words +=
+        "That is in millimetres of belt. The error of the belts' scale is additional and in "
+        "proportion to the part: 1 mm per metre for each tenth of a per cent.\n";
+  }
+  return words;
+}
+
+std::string as_members(const PromisedError& error) {
+  return fmt::format("\"expected_mm\": {}, \"outside_mm\": {}, \"expected_outside_mm\": {}",
+                     or_null(error.measured_mm()),
+                     error.map ? fmt::format("{:.3f}", error.map->outside.length_mm) : "null",
+                     or_null(error.outside_mm()));
 }
 
 }  // namespace chaintrue::cli

@@ -8,10 +8,10 @@
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/raster.hpp"
 #include "model/belts/belt_controller.hpp"
 #include "model/plotter/plotter_commands.hpp"
-#include "tools/cli/settings_file.hpp"
-#include "tools/cli/start_plotter.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -61,10 +61,6 @@ const gcode::Firmware* stated_firmware(std::string_view name) {
 }
 
 namespace {
-
-interp::Rectangle rectangle_of(const Bed& bed) {
-  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
-}
 
 /// The frame of the anchors; commands count from 0, 0.
 interp::Rectangle rectangle_of(const BeltMachine& machine) {
@@ -193,7 +189,7 @@ GcodeController controller_of(const GcodeOptions& options, const Target&,
   return {model::make_controller_kinematics(machine),
           &gcode::firmware(machine.controller.kind),
           gcode::clamp_box(machine),
-          rectangle_of(machine.bed),
+          grid::area_of(machine.bed),
           gcode::half_play_mm(machine),
           files::settings_in_force(machine)};
 }
@@ -219,12 +215,12 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options)
       corrector(*target.lengths, *controller.kinematics, *controller.firmware) {}
 
 interp::Rectangle sheet_of(const GcodeOptions& options) {
-  if (options.machine.empty()) return rectangle_of(Bed{});
+  if (options.machine.empty()) return grid::area_of(Bed{});
   const InputFile file = open_input(options.machine);
   if (file.kind == FileKind::plotter) return rectangle_of(load_plotter(file).plotter.set);
   const bool of_belts = file.kind == FileKind::belts || file.kind == FileKind::anchors;
   return of_belts ? rectangle_of(load_belt_machine(file))
-                  : rectangle_of(read_machine_input(options.machine).bed);
+                  : grid::area_of(read_machine_input(options.machine).bed);
 }
 
 }  // namespace chaintrue::cli

@@ -116,7 +116,10 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources, const Gcode
   }
 }
 
-int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
+}  // namespace
+
+int run_gcode_verify(const GcodeOptions& options) {
+  const GcodeMachine machine(options);
   const GcodeText original(options.program);
   const std::vector<grid::SourceFile> sources = made_from(options, original);
   const GcodeText other(options.other);
@@ -158,12 +161,6 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
                   fmt::format("{}:{}", options.program, summary->worst().original_line)}));
   }
   return summary->holds() ? kDone : kCheckFailed;
-}
-
-}  // namespace
-
-int run_gcode_verify(const GcodeOptions& options) {
-  return verify_on(GcodeMachine(options), options);
 }
 
 }  // namespace chaintrue::cli

@@ -14,7 +14,6 @@
 #include "grid/files/optical_file.hpp"
 #include "grid/files/plotter_file.hpp"
 #include "grid/files/ranges.hpp"
-#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

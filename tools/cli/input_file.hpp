@@ -11,18 +11,29 @@
 /// \endcode
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/file_type.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/measured_options.hpp"
+#include "grid/files/plotter_settings.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "grid/map/length_map.hpp"
+#include "grid/map/map_check.hpp"
+#include "grid/observation/measured.hpp"
+#include "grid/plotter/found_plotter.hpp"
 #include "model/belts/belt_machine.hpp"
+#include "model/controllers/controller.hpp"
 #include "model/machine.hpp"
 #include "tools/cli/arguments.hpp"
-#include "tools/cli/names.hpp"
 
 namespace chaintrue::cli {
 
@@ -70,5 +81,178 @@ Machine read_machine_input(const std::string& path);
 /// from a chaintrue_anchors file with the fitted ones, as pasted from export maslow4. \throws
 /// InputError.
 BeltMachine read_belt_machine_input(const std::string& path);
+
+// The grid or the holes of a verb: the file, and the options that supplement it.
+struct GridInput {
+  std::string grid;
+  std::string machine;
+  std::optional<double> length_noise_mm;
+  std::optional<double> position_noise_mm;
+  std::optional<double> noise_dof;
+  /// Readings are in inches, in tables whose header says mm.
+  bool inches = false;
+  /// Files of declared effects.
+  Words effects;
+};
+
+/// Adds GRID, --machine and the --noise options to a verb.
+void add_grid_options(Verb verb, GridInput& input);
+
+/// For measured files: those of two chains, whether it is a single grid, and whether any of them is a
+/// table.
+Facts facts_of(const InputFiles& files);
+
+/// --effects: declared effects may act on the machine of every input file.
+OptionRow effects_row(GridInput& input);
+
+/// Reads all inputs; warnings go to standard error. \throws InputError.
+MeasuredGrid read_grid_input(const GridInput& input);
+
+/// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
+void add_tape_options(Verb verb, files::TapeOptions& input);
+
+/// --without, for a verb that reads belts.
+[[nodiscard]] OptionRow without_row(std::string& without);
+/// Its points, from 1. \throws InputError.
+std::vector<std::size_t> points_left_out(const std::string& without);
+
+/// Enough data for a fit, or only for a check of a map.
+enum class MeasuredUse { fit, check };
+
+/// A grid or a set of holes, as the file is; `otherwise` is the machine for a file that names none,
+/// if available. \throws InputError.
+grid::MeasuredFile load_measured(const InputFile& file, const GridInput& input,
+                                 const files::TapeOptions& tape, MeasuredUse use,
+                                 const Machine* otherwise = nullptr);
+
+/// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
+/// settings. \throws InputError.
+grid::Measured load_measured(const InputFiles& files, const GridInput& input,
+                             const files::TapeOptions& tape, MeasuredUse use);
+
+struct ReadingCounts {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  std::size_t holes = 0;
+};
+/// Counts the readings of all files together.
+ReadingCounts counts_of(const grid::Measured& measured);
+
+/// The file, and those of --with.
+InputFiles open_inputs(const std::string& path, const Words& with);
+
+// --outside and --fade-mm: a map's continuation beyond its points, shared by several verbs.
+
+struct OutsideOption {
+  std::string way;
+  double fade_width_mm = grid::OutsideRule{}.fade_width_mm;
+};
+
+/// \param usual what happens without the option, in words
+void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual);
+/// The requested rule, or the given one.
+grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual);
+
+// The files of start for a V-plotter: the page to draw, the sheet of what to measure on it, and
+// the drawing file to fill in.
+/// A chaintrue_plotter, or settings that only a V-plotter has.
+bool is_of_a_plotter(const InputFile& file);
+
+/// A chaintrue_plotter, or the settings of a V-plotter's controller. \throws InputError with
+/// every problem.
+files::ReadPlotter load_plotter(const InputFile& file);
+
+/// Next to the plotter's file if `folder` is empty. A measured plotter is assumed to have the
+/// numbers of export plotter typed in.
+int start_plotter(Verb verb, const InputFile& file, std::string folder);
+
+// A machine's settings from any program: groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a
+// chaintrue_machine; and a map's machine with a controller that has these settings.
+struct SettingsFile {
+  std::string name;  ///< in messages
+  files::ReadMachine read;
+  /// Whether it is a file of this program.
+  bool is_ours = false;
+};
+
+/// \throws InputError with every problem of the file.
+SettingsFile read_settings_file(const std::string& path);
+/// As above, from its text.
+SettingsFile parse_settings_file(const std::string& path, const std::string& text);
+
+/// `stated`, a map's machine as stated, with a controller that has `now`. A map without a
+/// controller gets the file's. Reports in one line on standard error what differs from the settings
+/// that the map was measured with. \param in_place the controller of --controller, for which the
+/// settings are read; or null
+/// \throws InputError for settings of another kind of controller, or that change the meaning
+/// of the map's chain lengths.
+[[nodiscard]] Machine with_settings(const Machine& stated, const SettingsFile& now,
+                                    const ControllerKind* in_place);
+
+/// map.json becomes map.after.json: where export writes the map for the typed-in numbers by
+/// default.
+std::string after_name(const std::string& map);
+
+/// "maslow_classic", as in files and options.
+std::string_view name_of(ControllerKind kind);
+
+// A check whose points were commanded with settings other than the map's: those of a file, or the
+// numbers of export groundcontrol if all or some were typed in since the map was measured, or not
+// typed in although the map is for them. This is reported, and the check uses the map for the
+// settings in force.
+
+/// The map for the settings in the file `settings`; `measured` is recomputed for commands with
+/// these. `map_name` is for messages.
+/// \throws InputError for a bad file, settings of a wall plotter, or a map without a machine.
+[[nodiscard]] CompensationMap with_settings_of(const std::string& settings,
+                                               const std::string& map_name,
+                                               const CompensationMap& map,
+                                               grid::Measured& measured);
+
+/// Whether a map was made from the file `from` with its present content.
+bool was_made_from(const std::string& made, const std::string& from);
+
+/// The controller's settings for the map from which export made this one, if that map is next to it
+/// unchanged.
+std::optional<model::ControllerSettings> settings_before(const std::string& map);
+
+/// `found` is the check of `map` against `measured`. Empty if the map's settings fit, or if the
+/// others do not explain the points either. The others are those of `before`, the settings before
+/// the map's numbers; else those of export groundcontrol.
+[[nodiscard]] std::optional<grid::Check> with_typed_settings(
+    const CompensationMap& map, const grid::Measured& measured, const grid::Check& found,
+    std::optional<model::ControllerSettings> before = {});
+
+// What points are asked of and programs are made for: a compensation map, the anchors of four
+// belts, or the V-plotter that a test drawing found. Verbs ask `lengths`; `content` holds
+// what only one of the three has.
+//
+// \code
+//   const Target target = open_target(open_target_file(command.map), command.frame);
+//   if (const auto answer = target.lengths->query({100.0, -200.0})) use(*answer);
+// \endcode
+struct Target {
+  using Content = std::variant<CompensationMap, files::FittedAnchors, grid::KnownPlotter>;
+  std::unique_ptr<const Content> content;
+  std::unique_ptr<const grid::LengthMap> lengths;  ///< may refer to the content
+  /// Null for another content.
+  template <class Kind>
+  const Kind* as() const {
+    return std::get_if<Kind>(content.get());
+  }
+};
+
+/// \throws InputError for a file of another kind.
+InputFile open_target_file(const std::string& path);
+/// \param frame of a map, "marks" or "bed". \throws InputError for a bad file; Failed for a map that
+/// cannot be continued as `outside` asks.
+Target open_target(const InputFile& file, const std::string& frame,
+                   const OutsideOption& outside = {});
+
+/// --frame for a target.
+OptionRow frame_row(std::string& frame, std::string help);
+
+/// A chaintrue_plotter with the results of a drawing. \throws InputError without them.
+grid::KnownPlotter load_found_plotter(const InputFile& file);
 
 }  // namespace chaintrue::cli

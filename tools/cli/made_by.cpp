@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/made_by.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +7,6 @@
 #include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/places.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {

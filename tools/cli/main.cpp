@@ -14,7 +14,6 @@
 #include <system_error>
 
 #include "grid/printing.hpp"
-#include "tools/cli/failed.hpp"
 #include "tools/cli/run_command.hpp"
 #include "tools/cli/verb.hpp"
 

@@ -6,7 +6,6 @@
 #include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "tools/cli/failed.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {

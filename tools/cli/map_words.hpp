@@ -3,17 +3,19 @@
 /// A compensation map's figures, in words and numbers.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "grid/belts/belts_and_holes.hpp"
+#include "grid/belts/belts_error.hpp"
+#include "grid/belts/point_indices.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/names.hpp"
 #include "tools/report/document.hpp"
+#include "tools/report/map_pictures.hpp"
 
 namespace chaintrue::cli {
 
@@ -82,17 +84,11 @@ void require_fit_for_cutting(const std::string& why, bool is_forced);
 /// Rms and maximum of `size_of` over all that are not bad.
 template <class Readings, class Size>
 grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
-  grid::ErrorSummary summary;
-  double squares = 0.0, count = 0.0;
+  std::vector<double> sizes;
   for (const auto& reading : readings) {
-    if (reading.bad) continue;
-    const double size = std::abs(size_of(reading));
-    summary.maximum_mm = std::max(summary.maximum_mm, size);
-    squares += size * size;
-    count += 1.0;
+    if (!reading.bad) sizes.push_back(size_of(reading));
   }
-  if (count > 0.0) summary.rms_mm = std::sqrt(squares / count);
-  return summary;
+  return grid::summary_of(sizes);
 }
 
 using Residual = Eigen::Vector2d grid::MapPoint::*;
@@ -105,5 +101,46 @@ Residual residual_before(const MapContents& contents);
 std::string_view machine_before(const MapContents& contents);
 /// For the machine and for the sheet.
 std::vector<SettingRow> settings_rows(const CompensationMap& map);
+
+// A compensation map as a document for the terminal and for a browser.
+/// `source` is the name of the map's file, for the page's last line. Pictures are made if `detail`
+/// is page. The map is compared with `wish_mm`, an error of the tool, if given.
+Document map_document(const CompensationMap& map, std::string_view source,
+                      Detail detail = Detail::page, std::optional<double> wish_mm = std::nullopt);
+
+/// The data of the pictures.
+report::MapPictures map_pictures(const CompensationMap& map);
+
+/// Caution if a point was rejected or a setting is off.
+Tone tone_of(const MapContents& contents);
+/// "Made from map.json by chaintrue 1.0."
+std::string provenance_of(std::string_view source);
+
+// A fit of four belts as a document for the terminal and for a browser.
+/// The input of the fit; null if not available.
+struct FittedBelts {
+  const BeltsFit& fit;
+  const grid::HolesWithBelts* holes = nullptr;
+  /// The anchors' file has neither the taped distances nor the machine's message.
+  const MeasuredBelts* belts = nullptr;
+  grid::PointIndices indices{};  ///< of the points in their file
+};
+
+/// The agreement of the belts, the frame, the anchors, errors at left-out readings, the scale and
+/// the tape. `name` is the belts', `source` the file's.
+Document anchors_document(const FittedBelts& fitted, std::string_view name,
+                          std::string_view source);
+
+/// The machine's error, today and with these anchors.
+std::string headline_of(const BeltsFit& fit, const std::optional<BeltsError>& error);
+/// Why these anchors must not be pasted: their error exceeds kMostToCutWithMm or, if it is unknown,
+/// their uncertainty does. Otherwise empty.
+std::string not_to_paste(const BeltsFit& fit, const std::optional<BeltsError>& error);
+
+/// The least certain anchors, the causes, the error of one belt's reading, and the machine's figure
+/// for it.
+Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsError>& error);
+/// Errors at left-out readings, rejected readings, the scale and the holes.
+Section tests_section(const FittedBelts& fitted);
 
 }  // namespace chaintrue::cli

@@ -13,7 +13,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/file_identity.hpp"
-#include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -177,16 +177,14 @@ void add_force(Verb verb) {
       "Overwrite files that chaintrue did not write, or that were changed since");
 }
 
-Value placed(Value value, std::function<Words()> paths, std::vector<Origin> kinds = {}) {
-  value.declare = [declare = value.declare, paths = std::move(paths), kinds = std::move(kinds)](
-                      Verb verb, auto& names, auto& help) {
+Value placed(const Value& value, std::function<Words()> paths, std::vector<Origin> kinds = {}) {
+  return value.with([paths = std::move(paths), kinds = std::move(kinds)](Verb verb, auto& names,
+                                                                         CLI::Option& option) {
     declared().places.push_back({verb.with_name(), names, paths, kinds});
-    CLI::Option* option = declare(verb, names, help);
-    if (kinds.empty()) return option;
+    if (kinds.empty()) return;
     add_force(verb);
-    return option->check(CLI::Validator(fault_of, ""));
-  };
-  return value;
+    option.check(CLI::Validator(fault_of, ""));
+  });
 }
 
 }  // namespace
@@ -202,13 +200,7 @@ Value writes(std::string& path, std::vector<Origin> kinds) {
 }
 
 Value writes_into(std::string& folder) {
-  Value value(folder);
-  value.declare = [declare = value.declare](Verb verb, auto& names, auto& help) {
-    CLI::Option* option = declare(verb, names, help);
-    add_force(verb);
-    return option;
-  };
-  return value;
+  return Value(folder).with([](Verb verb, auto&, auto&) { add_force(verb); });
 }
 
 const Place* place_of(const std::string& option) {

@@ -17,16 +17,76 @@
 /// \endcode
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "grid/files/input_error.hpp"
 #include "grid/files/origin.hpp"
 #include "grid/files/pending_file.hpp"
+#include "grid/files/problems.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/names.hpp"
-#include "tools/cli/option_checks.hpp"
+#include "grid/provenance.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
+
+// What the verbs of a command line declared, and all its problems, reported at once and before any
+// file is read: numbers out of range and unknown words, a verb's own checks, places of files (places.hpp). Checks that
+// depend on a file's content are the verb's.
+//
+// \code
+//   add_option_check(verb, c, check_words);  // void check_words(const Command&, OptionProblems&)
+// \endcode
+/// Collects all problems of a command's values and throws them together.
+class OptionProblems {
+ public:
+  void add(std::string_view option, std::string value, std::string expected, ProblemKind kind);
+  /// `value` is finite and within [least, most].
+  void require(std::string_view option, double value, double least, double most);
+  /// Adds the problems of an InputError thrown by `check`.
+  void take_from(const std::function<void()>& check);
+  void throw_if_any() const;
+
+ private:
+  std::vector<files::InputProblem> problems_;
+};
+
+struct DeclaredCheck {
+  Verb verb;
+  std::function<void(OptionProblems&)> check;
+};
+
+/// An option that names files; the names are known after parsing.
+struct Place {
+  Verb verb;
+  std::string names;  ///< "-o,--output"
+  std::function<Words()> paths;
+  std::vector<files::Origin> kinds;  ///< of an output; none for an input
+};
+
+/// Those of all verbs of the current command line.
+struct Declared {
+  std::vector<OptionRule> rules;
+  std::vector<DeclaredCheck> checks;
+  std::vector<Place> places;
+  files::Problems misread{"command line"};  ///< numbers and words that were given
+};
+Declared& declared();
+
+/// `check` runs if the verb was chosen. Out-of-range numbers have their defaults then.
+void add_option_check(Verb verb, std::function<void(OptionProblems&)> check);
+template <class Command>
+void add_option_check(Verb verb, const Command& command,
+                      void (*check)(const Command&, OptionProblems&)) {
+  add_option_check(verb, [&command, check](OptionProblems& problems) { check(command, problems); });
+}
+
+/// For the verb that was chosen, before its work. \throws InputError with all that is wrong.
+void check_command_line();
 
 using files::Origin;
 /// Texts with their places; those with an empty path are not wanted.
@@ -68,5 +128,17 @@ void write_outputs(const Outputs& outputs);
 /// For outputs that are written piece by piece, in addition to whole texts. Empty paths are
 /// skipped.
 void take_place(files::PendingFile& pending, const std::string& path, const Outputs& others);
+
+// The provenance that a verb writes with its results, and its display in a report.
+/// For the chosen verb: its options, except those that name outputs or only change printing, and
+/// every file read so far.
+grid::Provenance made_by(Verb verb);
+
+/// "Where this comes from", folded; nothing is added if it is unknown.
+void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Section>& sections);
+
+/// A note on standard error if an input has the same name as a source of this result but another
+/// content.
+void report_difference(const InputFile& result);
 
 }  // namespace chaintrue::cli

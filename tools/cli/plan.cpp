@@ -16,10 +16,7 @@
 #include "grid/planning/check_plan.hpp"
 #include "grid/planning/second_visits.hpp"
 #include "model/chains/chain_changes.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/plan_after.hpp"
-#include "tools/cli/plan_drawing.hpp"
-#include "tools/cli/plan_holes.hpp"
+#include "tools/cli/sheet.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

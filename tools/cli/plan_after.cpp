@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/plan_after.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +10,9 @@
 #include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/belts/belt_kinematics.hpp"
-#include "tools/cli/follow_up.hpp"
-#include "tools/cli/made_by.hpp"
-#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/sheet.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -44,10 +42,7 @@ bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
 }
 
 std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
-  std::optional<int> visit;
-  for (const auto& point : belts.points) {
-    if (point.order) visit = std::max(visit.value_or(0), *point.order + 1);
-  }
+  std::optional<int> visit = next_visit(belts.points);
   std::string lines;
   for (const NextMeasurement& next : found.next_measurements) {
     if (!next.mark) continue;
@@ -160,8 +155,7 @@ bool has_points_of(const Diagnosis& found, const grid::Measured& measured) {
   const std::vector<MarkPoint> marks = marks_of(measured);
   return std::equal(found.points.begin(), found.points.end(), marks.begin(), marks.end(),
                     [&](const auto& pictured, const MarkPoint& mark) {
-                      return std::abs(pictured.mark.x_mm - mark.x_mm) < kSamePlaceMm &&
-                             std::abs(pictured.mark.y_mm - mark.y_mm) < kSamePlaceMm;
+                      return grid::distance_mm(pictured.mark, mark) < kSamePlaceMm;
                     });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/sheet.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "tools/cli/holes_words.hpp"
+#include "grid/raster.hpp"
+#include "grid/statistics.hpp"
 #include "tools/cli/svg.hpp"
 #include "tools/report/hole_labels.hpp"
 
@@ -114,24 +115,16 @@ ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed) {
   errors.columns = 60;
   errors.rows = 30;
   errors.cells_mm = grid::expected_error_mm(map, bed, errors.columns, errors.rows);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < errors.cells_mm.size(); ++i) {
-    const double error = errors.cells_mm[i];
-    if (error < 0.0) {
-      ++errors.unanswered;
-      continue;
-    }
-    squares += error * error;
-    if (error > errors.largest_mm) {
-      errors.largest_mm = error;
-      const auto columns = grid::as_size(errors.columns);
-      errors.worst_at = {
-          bed.width_mm * ((grid::as_double(i % columns) + 0.5) / errors.columns - 0.5),
-          bed.height_mm * ((grid::as_double(i / columns) + 0.5) / errors.rows - 0.5)};
-    }
+  const auto places =
+      grid::raster(grid::area_of(bed), errors.columns, errors.rows, grid::RasterOf::cells);
+  const auto worst = grid::max_element(errors.cells_mm);
+  if (*worst > 0.0) {
+    errors.largest_mm = *worst;
+    errors.worst_at = places[grid::as_size(worst - errors.cells_mm.begin())];
   }
-  const std::size_t answered = errors.cells_mm.size() - errors.unanswered;
-  if (answered > 0) errors.rms_mm = std::sqrt(squares / grid::as_double(answered));
+  std::vector<double> answered_mm = errors.cells_mm;
+  errors.unanswered = std::erase_if(answered_mm, [](double error) { return error < 0.0; });
+  errors.rms_mm = grid::rms(answered_mm);
   return errors;
 }
 

@@ -10,8 +10,6 @@
 #include "grid/containers.hpp"
 #include "grid/files/points_file.hpp"
 #include "tools/cli/fields.hpp"
-#include "tools/cli/progress.hpp"
-#include "tools/cli/target.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

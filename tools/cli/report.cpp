@@ -11,10 +11,7 @@
 #include <vector>
 
 #include "grid/files/sources.hpp"
-#include "tools/cli/anchors_document.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
-#include "tools/cli/made_by.hpp"
-#include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/verb.hpp"
 

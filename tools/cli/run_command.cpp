@@ -13,8 +13,6 @@
 #include "grid/files/sources.hpp"
 #include "grid/printing.hpp"
 #include "grid/threads/use_threads.hpp"
-#include "tools/cli/option_checks.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

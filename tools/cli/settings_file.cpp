@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/settings_file.hpp"
+#include "tools/cli/input_file.hpp"
 
 #include <fmt/format.h>
 

@@ -4,13 +4,12 @@
 #include "tools/cli/sheet.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "tools/cli/plan_drawing.hpp"
+#include "grid/plane_vectors.hpp"
 #include "tools/cli/svg.hpp"
 #include "tools/report/embedded.hpp"
 
@@ -116,9 +115,7 @@ std::string drawing_of(const Sheet& sheet, const Bed& bed) {
   double nearest = 80.0;
   for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      nearest =
-          std::min(nearest, view.scale() * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
-                                                      sheet.marks[i].y_mm - sheet.marks[k].y_mm));
+      nearest = std::min(nearest, view.scale() * grid::distance_mm(sheet.marks[i], sheet.marks[k]));
     }
   }
   const double radius = std::clamp(0.45 * nearest, 3.0, 16.0);

@@ -14,9 +14,7 @@
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "tools/cli/option_checks.hpp"
-#include "tools/cli/plan_holes.hpp"
-#include "tools/cli/progress.hpp"
+#include "tools/cli/sheet.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
 

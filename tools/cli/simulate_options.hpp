@@ -10,8 +10,9 @@
 
 #include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/generator.hpp"
-#include "tools/cli/effect_argument.hpp"
+#include "model/machine.hpp"
 #include "tools/cli/names.hpp"
+#include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
 
@@ -72,5 +73,22 @@ int simulate_the_belts(const SimulateOptions& options);
 /// Writes the set and, if requested, its hidden truth; returns the exit code. \throws
 /// InputError for values out of range.
 int simulate_the_holes(const SimulateOptions& options, const Machine& stated);
+
+// Effects on the command line: `id:side:key=value,key=value`, `-` for no side.
+/// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
+/// argument of another form is a problem, as is an effect without a name.
+std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProblems& problems);
+
+/// The effects that `--effect` named, checked against the catalogue as effects of `machine` in addition to
+/// its own.
+std::vector<AppliedEffect> parse_effects(const Words& arguments, const Machine& machine,
+                                         OptionProblems& problems);
+
+struct NamedNumber {
+  std::string name;
+  double value = 0.0;
+};
+/// `name=number`; empty for any other text.
+std::optional<NamedNumber> named_number(std::string_view text);
 
 }  // namespace chaintrue::cli

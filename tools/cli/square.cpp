@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "grid/plotter/test_drawing.hpp"
-#include "tools/cli/effect_drawing.hpp"
 #include "tools/cli/gcode_job.hpp"
+#include "tools/cli/svg.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

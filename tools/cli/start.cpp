@@ -9,12 +9,7 @@
 #include <vector>
 
 #include "grid/planning/second_visits.hpp"
-#include "tools/cli/failed.hpp"
-#include "tools/cli/holes_words.hpp"
-#include "tools/cli/plan_drawing.hpp"
-#include "tools/cli/settings_file.hpp"
 #include "tools/cli/sheet.hpp"
-#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

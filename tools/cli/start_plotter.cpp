@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/start_plotter.hpp"
 
 #include <fmt/format.h>
 
@@ -22,8 +21,7 @@ FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
   if (drawing.firmware == PlotterFirmware::mural || drawing.firmware == PlotterFirmware::polargraph)
     return {"page.svg", grid::drawing_svg(drawing), Origin::drawing};
   return {"page.gcode",
-          "; chaintrue start: the test drawing of a V-plotter\n" +
-              grid::drawing_gcode(drawing, drawing.pen, drawing.feed_mm_per_min),
+          "; chaintrue start: the test drawing of a V-plotter\n" + grid::drawing_gcode(drawing),
           Origin::program};
 }
 

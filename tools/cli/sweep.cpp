@@ -15,8 +15,6 @@
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/sweep/run_sweep.hpp"
-#include "tools/cli/option_checks.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/document.hpp"
 
@@ -283,9 +281,19 @@ int assemble(Verb verb, const sweep::SweepSpec& spec, const files::FinishedCells
 int run_sweep_verb(Verb verb, const SweepOptions& options) {
   const Processes processes;
   std::exception_ptr failure;
+  // Whether all processes did it: none starts before all have checked the folder, and none collects
+  // before all have finished.
+  const auto all_did = [&](const std::function<void()>& work) {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    return processes.all(failure == nullptr);
+  };
   std::optional<files::ReadSweep> read;
   sweep::SweepRun run;
-  try {
+  const bool is_ready = all_did([&] {
     OptionProblems sound;  // ensured by check_options
     run.share = parse_shard(options.shard, sound);
     run.share.rank = processes.rank();
@@ -294,29 +302,22 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
     if (processes.rank() == 0) print_warnings(read->warnings);
     refuse_old_results(options);
     check_folder(verb, options.directory, results());
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  // No process starts before all have checked the folder, and none collects before all have
-  // finished.
-  if (processes.all(failure == nullptr)) {
-    try {
-      if (processes.rank() == 0)
-        run.progress = [](std::uint64_t finished, std::uint64_t total) {
-          progress_is(grid::as_double(finished), grid::as_double(total));
-        };
-      sweep::run_sweep(read->spec, files::cells_kept_in(options.directory, *read, run.share), run);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    end_progress();
-    if (processes.all(failure == nullptr) && processes.rank() == 0) {
-      return assemble(verb, read->spec, files::finished_cells(options.directory, *read), options);
-    }
-  }
+    if (processes.rank() > 0) return;
+    run.progress = [](std::uint64_t finished, std::uint64_t total) {
+      progress_is(grid::as_double(finished), grid::as_double(total));
+    };
+  });
+  const bool is_done =
+      is_ready && all_did([&] {
+        sweep::run_sweep(read->spec, files::cells_kept_in(options.directory, *read, run.share),
+                         run);
+      });
+  end_progress();
+  if (processes.rank() > 0) return failure ? kBadInput : kDone;
   // One message for an error that all processes found.
-  if (failure && processes.rank() == 0) std::rethrow_exception(failure);
-  return failure ? kBadInput : kDone;
+  if (failure) std::rethrow_exception(failure);
+  if (!is_done) return kDone;
+  return assemble(verb, read->spec, files::finished_cells(options.directory, *read), options);
 }
 
 }  // namespace

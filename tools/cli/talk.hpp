@@ -5,16 +5,27 @@
 #pragma once
 
 #include <fmt/format.h>
-
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "grid/progress.hpp"
 #include "tools/cli/arguments.hpp"
-#include "tools/cli/names.hpp"
+
+namespace chaintrue::grid {
+enum class BeltsFitReason;
+enum class CheckReason;
+enum class FitReason;
+enum class PlanReason;
+namespace diagnosis {
+enum class DiagnosisReason;
+}
+}  // namespace chaintrue::grid
 
 namespace chaintrue::cli {
 
@@ -73,5 +84,65 @@ void write_whole_lines();
 void print_warnings(const std::vector<files::Warning>& warnings);
 /// For the comments of a file that was made with these assumptions.
 std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings);
+
+// Shows progress on a terminal after one second: elapsed time, the step and the number of steps
+// and, if known, the share done and the time left. No output if standard error is not a terminal.
+//
+// \code
+//   { const ProgressLine line("diagnose"); ... }            // main() does this for every verb
+//   options.progress = shown_progress();                    // receives the steps of the work
+//   progress_is(finished, total);                           // or the progress of a single step
+//   end_progress();                                         // before printing anything
+// \endcode
+/// One at a time.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const std::string& verb);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+};
+
+/// Shows the steps that it receives. Safe from any thread, and cheap.
+grid::Progress shown_progress();
+/// For the last step received, or the whole if none was.
+void progress_is(double finished, double total);
+/// Removes the line; nothing more is shown. No effect without a ProgressLine.
+void end_progress();
+
+// Thrown by a verb that cannot do its task with valid input: a sentence for the user, and
+// the reason by a name that stays the same if sentences change.
+//
+// \code
+//   const grid::Check check = value_of(grid::check_map(map, points), file.name);
+// \endcode
+/// The enumerator's own name: "no_machine".
+std::string_view name_of(grid::BeltsFitReason reason);
+std::string_view name_of(grid::CheckReason reason);
+std::string_view name_of(grid::FitReason reason);
+std::string_view name_of(grid::PlanReason reason);
+std::string_view name_of(diagnosis::DiagnosisReason reason);
+
+struct Failed : std::runtime_error {
+  Failed(std::string file, std::string_view why, const std::string& sentence,
+         int exit_code = kBadInput)
+      : std::runtime_error(sentence), about(std::move(file)), reason(why), code(exit_code) {}
+  /// \param failure a Failure of one of the reasons above
+  template <class Failure>
+  Failed(std::string file, const Failure& failure, int exit_code = kBadInput)
+      : Failed(std::move(file), name_of(failure.reason), failure.sentence(), exit_code) {}
+
+  /// The file, or the command, that the message begins with; empty: it was printed.
+  std::string about;
+  std::string reason;
+  int code;
+};
+
+/// \throws Failed as above without a result
+template <class T, class Failure>
+T value_of(tl::expected<T, Failure> result, std::string about, int code = kBadInput) {
+  if (!result) throw Failed(std::move(about), result.error(), code);
+  return *std::move(result);
+}
 
 }  // namespace chaintrue::cli

@@ -9,7 +9,7 @@
 
 #include "grid/files/problems.hpp"
 #include "tools/cli/arguments.hpp"
-#include "tools/cli/option_checks.hpp"
+#include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -81,19 +81,26 @@ Value::Value(std::string usual, std::string expected, std::function<bool(const s
         return verb.app().add_option_function<std::string>(names, read, help)->default_str(usual);
       }) {}
 
-Value required(Value value) {
-  value.declare = [declare = value.declare](Verb verb, auto& names, auto& help) {
-    // A default of the command is none of an option that must be given.
-    return declare(verb, names, help)->required()->default_str("");
+Value Value::with(Change change) const {
+  Value value = *this;
+  value.declare = [declare = declare, change = std::move(change)](Verb verb, auto& names,
+                                                                  auto& help) {
+    CLI::Option* option = declare(verb, names, help);
+    change(verb, names, *option);
+    return option;
   };
   return value;
 }
 
-Value without_default(Value value) {
-  value.declare = [declare = value.declare](Verb verb, auto& names, auto& help) {
-    return declare(verb, names, help)->default_str("");
-  };
-  return value;
+Value required(const Value& value) {
+  return value.with([](Verb, auto&, CLI::Option& option) {
+    // A default of the command is none of an option that must be given.
+    option.required()->default_str("");
+  });
+}
+
+Value without_default(const Value& value) {
+  return value.with([](Verb, auto&, CLI::Option& option) { option.default_str(""); });
 }
 
 }  // namespace chaintrue::cli

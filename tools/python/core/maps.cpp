@@ -14,8 +14,8 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/map/map_in_frame.hpp"
-#include "tools/cli/failed.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {

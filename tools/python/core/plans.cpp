@@ -12,8 +12,8 @@
 #include "grid/files/file_type.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
-#include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/plan_after.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
+#include "tools/cli/sheet.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {
