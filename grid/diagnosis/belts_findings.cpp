@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -149,21 +148,21 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
 Unexplained pattern_of_belts(const BeltsAnalysis& a) {
   Unexplained result;
   result.probability = std::clamp(a.decision.discrepancy, 0.0, 1.0);
-  if (a.noise == nullptr) return result;
+  if (!a.noise.is_of_process()) return result;
   const KeptRows& kept = marginalised_system(a).kept;
   const VectorXd all = kept(a.estimate.left);
   const VectorXd taken = all - kept(a.estimate.left_given_discrepancy);
   result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / as_double(taken.size()));
   result.signal_to_noise = result.rms_mm / a.sigma_mm * std::sqrt(as_double(a.system.e.size()));
   result.share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
-  result.length_mm = a.noise->process.kernel.fields.front().length;
+  result.length_mm = a.noise.process.kernel.fields.front().length;
   return result;
 }
 
 /// Residual chi^2 of a place's other readings at their best position.
 double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
-  Eigen::Matrix<double, 3, 1> residual;
-  Eigen::Matrix<double, 3, 2> by_place;
+  Vector3d residual;
+  MatrixXd by_place(3, 2);
   Index row = 0;
   for (const Belt belt : kBelts) {
     if (belt == without) continue;
@@ -171,9 +170,8 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
     residual(row) = view.equations().residual_mm(at) / view.sigma_mm();
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
-  const Vector2d moved =
-      Eigen::LDLT<Matrix2d>(by_place.transpose() * by_place).solve(by_place.transpose() * residual);
-  return (residual - by_place * moved).squaredNorm();
+  const VectorXd moved = linear::least_squares(by_place, residual);
+  return (residual - linear::product(by_place, moved)).squaredNorm();
 }
 
 /// The belt that may be wrong instead: on the line between two anchors only the other two belts

@@ -86,7 +86,7 @@ void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& c
              Alternative& h) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const auto noise = discrepancy_noise(a.system, marginalised, h.discrepancy);
-  const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise.get());
+  const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise);
   // Holes not yet cut have their own columns, after all others.
   const Index settings = fitted.setting_change.size();
   const Index to_come = system.by_setting.cols() - settings;
@@ -105,7 +105,8 @@ void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& c
     }
   }
   h.covariance.setZero(design.rows(), design.rows());
-  if (noise) h.covariance = add_discrepancy(a, system, fitted, noise->covariance, h.mean, design);
+  if (noise.is_of_process())
+    h.covariance = add_discrepancy(a, system, fitted, noise.covariance, h.mean, design);
   linear::add_outer(h.covariance, 1.0,
                     linear::product(design, linear::Cholesky(fitted.covariance).lower()));
   linear::add_outer(

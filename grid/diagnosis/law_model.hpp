@@ -82,7 +82,7 @@ class LawModel {
     MatrixXd here(rows, settings + columns.cols());
     MatrixXd there(next.by_setting.rows(), settings + columns.cols());
     here.leftCols(settings) =
-        linear::scaled_columns(marginalised_.kept.of(system_.by_setting), system_.sigma);
+        linear::scaled_columns(marginalised_.kept(system_.by_setting), system_.sigma);
     there.leftCols(settings) =
         linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma);
     for (Index k = 0; k < columns.cols(); ++k) {

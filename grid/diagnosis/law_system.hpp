@@ -49,13 +49,12 @@ class LawSystem {
   /// analysis must outlive this.
   LawSystem(const Analysis& a, std::size_t number, const std::vector<RegressorSet>& sets)
       : from_(a.system),
-        marginalised_(
-            marginalise_rows(a.system, a.comparison.marginalised_systems[number].outliers)),
+        marginalised_(marginalise(a.system, a.comparison.marginalised_systems[number].outliers)),
         noise_(a.system.noise_dof, marginalised_.kept.size()) {
     std::set<int> used;
     for (const auto& set : sets) used.insert(set.begin(), set.end());
     const RegressorSet all(used.begin(), used.end());
-    causes_ = a.comparison.marginalised_systems[number].g.dense(all);
+    causes_ = reduced(marginalised_, a.system.g.dense(all));
     for (const auto& set : sets) {
       ColumnSet at;
       for (const int k : set)
@@ -95,7 +94,7 @@ class LawSystem {
       laws.middleCols(count, own.cols()) = own;
       count += own.cols();
     }
-    take_columns(marginalised_.root.solve(marginalised_.kept.of(laws)));
+    take_columns(reduced(marginalised_, laws));
     return of_point;
   }
 
@@ -155,7 +154,6 @@ class LawSystem {
   void take_columns(const MatrixXd& laws) {
     MatrixXd g(laws.rows(), causes_.cols() + laws.cols());
     g << causes_, laws;
-    marginalised_.g = RegressorColumns(std::move(g));
     Regressor law;
     law.lowest = kMinusInfinity;
     law.highest = kInfinity;
@@ -164,7 +162,7 @@ class LawSystem {
     auto all = numbers_below<int>(own_.regressors.size());
     given_.clear();
     basis_->forget();
-    plain_ = normal_equations(own_, marginalised_, std::move(all));
+    plain_ = normal_equations(own_.regressors, marginalised_, std::move(all), g);
   }
 
   /// Columns in a context: of its causes and of some laws.

@@ -22,7 +22,7 @@ VectorXd placed(RegressorSystem system, const VectorXd& left) {
   system.g = RegressorColumns(system.e.size());
   system.e = left;
   const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}).front();
-  return estimate(system, marginalise_rows(system, outliers), {}, -1).left;
+  return estimate(system, marginalise(system, outliers), {}, -1).left;
 }
 
 /// Residuals of the second session with the first one's model, before placing its sheet.
