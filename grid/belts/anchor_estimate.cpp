@@ -112,7 +112,9 @@ std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts, const AnchorVecto
                                    Counting counting, Readings which,
                                    double most_noise_mm = kPlausibleSpreadMm) {
   if (which == Readings::those_that_fit) counting = without_nowhere_points(belts, start, counting);
-  estimation::EstimationInput input = anchor_input(belts, counting, start);
+  AnchorFit fit{
+      .state = {start, 0.0, {}}, .counting = std::move(counting), .residual_sigma_mm = 1.0};
+  estimation::EstimationInput input = anchor_input(belts, fit);
   if (which == Readings::those_that_fit)
     input.reading_limits =
         estimation::ReadingLimits{kBadReadingSigmas, kMostBadReadings, most_noise_mm};
@@ -122,15 +124,13 @@ std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts, const AnchorVecto
       dynamic_cast<const observation::BeltLengthReadings&>(*input.observations.front());
   for (const estimation::ReadingEstimate& one : estimate->rejected_readings) {
     const std::size_t point = readings.readings()[readings.place_of(one.reading.unit)].index;
-    counting[point][kBelts.at(as_size(one.reading.reading))] = false;
+    fit.counting[point][kBelts.at(as_size(one.reading.reading))] = false;
   }
-  AnchorFit fit;
   fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
-  fit.checks = checks_of(counting);
-  fit.residual_sigma_mm =
-      fit.checks > 0 ? std::max(estimate->noise_factor, least_spread_mm(belts)) : 1.0;
+  fit.checks = checks_of(fit.counting);
+  if (fit.checks > 0)
+    fit.residual_sigma_mm = std::max(estimate->noise_factor, least_spread_mm(belts));
   fit.is_sound = estimate->converged && is_upright_frame(fit.state.anchors);
-  fit.counting = std::move(counting);
   return fit;
 }
 
@@ -142,12 +142,7 @@ std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<A
 /// With the distances; noise and places are kept.
 std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
   if (!fit || belts.distances.empty()) return with_places(belts, std::move(fit));
-  const auto readings = std::make_shared<const observation::BeltLengthReadings>(
-      readings_of(belts, fit->counting, fit->residual_sigma_mm));
-  estimation::EstimationInput input = anchor_input(belts, fit->counting, fit->state.anchors);
-  input.mechanism = mechanism_at(belts, fit->state);
-  input.fixed_weights = VectorXd::Ones(std::ssize(readings->units()));
-  input.observations = {readings};
+  estimation::EstimationInput input = anchor_input(belts, *fit);
   input.noise.knowledge = interp::NoiseKnowledge::exact;
   const auto estimate = estimation::estimate(input);
   if (!estimate) return std::nullopt;
@@ -258,13 +253,11 @@ std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
   return line ? std::optional(*line) : std::nullopt;
 }
 
-estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const Counting& counting,
-                                         const AnchorVector& start) {
-  const MeasuredBelts untaped = without_distances(belts);
-  auto readings =
-      std::make_shared<const observation::BeltLengthReadings>(readings_of(untaped, counting));
+estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const AnchorFit& from) {
+  auto readings = std::make_shared<const observation::BeltLengthReadings>(
+      readings_of(belts, from.counting, from.residual_sigma_mm));
   estimation::EstimationInput input;
-  input.mechanism = mechanism_at(untaped, {start, 0.0, {}});
+  input.mechanism = mechanism_at(belts, from.state);
   input.fixed_weights = VectorXd::Ones(std::ssize(readings->units()));
   input.observations.push_back(std::move(readings));
   input.noise.knowledge = interp::NoiseKnowledge::unknown;

@@ -57,11 +57,10 @@ std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
 /// all four lengths if too few count.
 void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 
-/// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
-/// Precondition: `belts` has no distances. In its estimate, noise_factor is the spread in mm, and
+/// The estimator's input with the readings that count in a fit, about its anchors: anchors without a
+/// prior, every unit at full weight. In its estimate, noise_factor is relative to the fit's spread, and
 /// the first five rows of the covariance are those of the anchors, mm^2.
-estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const Counting& counting,
-                                         const AnchorVector& start);
+estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const AnchorFit& from);
 
 /// From the likeliest start that leads to a sound frame, with every reading counted; if none does,
 /// the best fit; empty if no start converges.

@@ -24,16 +24,20 @@ using model::Belt;
 using model::kBelts;
 
 const std::array<std::vector<BeltPair>, 9>& belt_swaps() {
-  static const std::array<std::vector<BeltPair>, 9> kSwaps = {
-      std::vector<BeltPair>{{Belt::tl, Belt::tr}},
-      std::vector<BeltPair>{{Belt::bl, Belt::br}},
-      std::vector<BeltPair>{{Belt::tl, Belt::bl}},
-      std::vector<BeltPair>{{Belt::tr, Belt::br}},
-      std::vector<BeltPair>{{Belt::tl, Belt::br}},
-      std::vector<BeltPair>{{Belt::tr, Belt::bl}},
-      std::vector<BeltPair>{{Belt::tl, Belt::tr}, {Belt::bl, Belt::br}},
-      std::vector<BeltPair>{{Belt::tl, Belt::bl}, {Belt::tr, Belt::br}},
-      std::vector<BeltPair>{{Belt::tl, Belt::br}, {Belt::tr, Belt::bl}}};
+  constexpr std::array<BeltPair, 6> kPairs = {{{Belt::tl, Belt::tr},
+                                               {Belt::bl, Belt::br},
+                                               {Belt::tl, Belt::bl},
+                                               {Belt::tr, Belt::br},
+                                               {Belt::tl, Belt::br},
+                                               {Belt::tr, Belt::bl}}};
+  static const auto kSwaps = [&] {
+    std::array<std::vector<BeltPair>, 9> swaps;
+    for (std::size_t k = 0; k < kPairs.size(); ++k) {
+      swaps[k].push_back(kPairs[k]);
+      swaps[kPairs.size() + k / 2].push_back(kPairs[k]);
+    }
+    return swaps;
+  }();
   return kSwaps;
 }
 

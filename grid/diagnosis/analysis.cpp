@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
@@ -26,16 +27,9 @@ double log_strength_density(double signal_to_noise) {
   return sum;
 }
 
-/// Length of every regressor's column with the settings integrated out, no point set aside. Without making
-/// these columns: with hundreds of visits they are the largest matrix of all.
+/// Length of every regressor's column with the settings integrated out, no point set aside.
 VectorXd reduced_lengths(const RegressorSystem& system) {
-  const MatrixXd explained = marginalise_rows(system, nothing_rejected(system)).root.explained();
-  const VectorXd lost =
-      linear::product(linear::transposed(explained), system.g.distinct()).colwise().squaredNorm();
-  VectorXd squares = system.g.squared_norms();
-  for (Index k = 0; k < squares.size(); ++k)
-    squares(k) -= std::pow(system.g.factor(k), 2) * lost(system.g.index(k));
-  return squares.cwiseMax(0.0).cwiseSqrt();
+  return squared_lengths(system, marginalise(system, nothing_rejected(system))).cwiseSqrt();
 }
 
 /// Divides a cause's prior among its visits and numbers of links, and sets the odds of slips at one
@@ -43,25 +37,22 @@ VectorXd reduced_lengths(const RegressorSystem& system) {
 /// carry it: density of the strength at each, as for any other cause.
 void share_out_links(RegressorSystem& system) {
   const VectorXd lengths = reduced_lengths(system);
-  std::size_t first = 0;
-  while (first < system.regressors.size()) {
-    std::size_t last = first;
-    double log_all = 0.0;
-    std::vector<double> log_weight;
-    for (; last < system.regressors.size(); ++last) {
-      const Regressor& d = system.regressors[last];
-      if (d.cause != system.regressors[first].cause) break;
-      log_weight.push_back(log_share_of_links(d.values.front()) +
-                           log_strength_density(lengths(as_index(last))));
-      log_all = last == first ? log_weight.back() : log_sum(log_all, log_weight.back());
-    }
-    for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {
-      Regressor& d = system.regressors[k];
-      d.log_prior =
-          log_weight[k - first] - log_all - std::log(as_double(d.cause.effect->sides.size()));
-      if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);
-    }
-    first = last;
+  const auto log_weight = [&](std::size_t k) {
+    return log_share_of_links(system.regressors[k].values.front()) +
+           log_strength_density(lengths(as_index(k)));
+  };
+  std::map<CauseId, double> log_all;
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    if (!system.regressors[k].fixed) continue;
+    double& sum = log_all.try_emplace(system.regressors[k].cause, kMinusInfinity).first->second;
+    sum = log_sum(sum, log_weight(k));
+  }
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    Regressor& d = system.regressors[k];
+    if (!d.fixed) continue;
+    d.log_prior =
+        log_weight(k) - log_all.at(d.cause) - std::log(as_double(d.cause.effect->sides.size()));
+    if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);
   }
 }
 
@@ -104,13 +95,11 @@ double move_mm(const ObservationSet& session, const VectorXd& change) {
 tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   const ObservationSet& session = a.session;
   State state = stated_state(session);
-  const Flags none(session.units.size(), false);
   a.converged = false;
   for (int pass = 0; pass < kCalibrations && !a.converged; ++pass) {
     auto system = linearise(session, state);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
-    system->g = RegressorColumns(session.rows);
-    const auto outliers = outlier_sets(*system, none, {{}}).front();
+    const auto outliers = outlier_sets(*system, nothing_rejected(*system), {{}}).front();
     const MarginalisedSystem marginalised = marginalise(*system, outliers);
     const VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
     auto moved = moved_to(session, std::move(state), system->setting + change);
@@ -144,47 +133,30 @@ void speak_of_leaders(const RegressorSystem& system, const ModelComparison& comp
 /// Removes causes that could not show, with this reason.
 void drop_hidden(std::string_view reason, Analysis& a) {
   const VectorXd lengths = reduced_lengths(a.system);
-  const auto shows = [&](const CauseId& cause) {
-    double most = 0.0;
-    for (const int k : a.system.regressors_of(cause)) {
-      const Regressor& d = a.system.regressor(k);
-      const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-      most = std::max(most, size * lengths(k));
-    }
-    return most >= kLeastReach;
-  };
-  std::vector<CauseId> visible;
-  for (const CauseId& cause : a.candidates.testable) {
-    if (shows(cause)) {
-      visible.push_back(cause);
-    } else {
-      a.candidates.not_testable.push_back({cause, std::string(reason)});
-    }
-  }
-  ColumnSet kept;
-  std::vector<Regressor> regressors;
+  std::map<CauseId, double> reach;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-    if (!contains(visible, a.system.regressors[k].cause)) continue;
-    kept.push_back(as_index(k));
-    regressors.push_back(a.system.regressors[k]);
+    const Regressor& d = a.system.regressors[k];
+    const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
+    double& most = reach[d.cause];
+    most = std::max(most, size * lengths(as_index(k)));
+  }
+  const auto shows = [&](const CauseId& cause) { return reach[cause] >= kLeastReach; };
+  for (const CauseId& cause : a.candidates.testable) {
+    if (!shows(cause)) a.candidates.not_testable.push_back({cause, std::string(reason)});
+  }
+  std::erase_if(a.candidates.testable, std::not_fn(shows));
+  ColumnSet kept;
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    if (shows(a.system.regressors[k].cause)) kept.push_back(as_index(k));
   }
   a.system.g = a.system.g.subset(kept);
-  a.system.regressors = std::move(regressors);
-  a.candidates.testable = std::move(visible);
-}
-
-/// The comparison before is freed first: its columns are large.
-void compare(const ComparisonOptions& options, Analysis& a) {
-  a.comparison = {};
-  a.comparison = compare_models(a.system, nothing_rejected(a.system), options);
+  std::erase_if(a.system.regressors, [&](const Regressor& d) { return !shows(d.cause); });
 }
 
 void test_significance(const AnalysisRules& rules, Analysis& a) {
   const auto own = rules.tried_with_noise(a);
   const RegressorSystem& causes = own ? *own : a.system;
-  const MarginalisedSystem& best = a.comparison.best_system();
-  const auto of_own = own ? marginalise(*own, best.outliers) : MarginalisedSystem{};
-  const MarginalisedSystem& marginalised = own ? of_own : best;
+  const MarginalisedSystem marginalised = marginalise(causes, a.comparison.best_system().outliers);
   // Given the length of the residuals, nothing else is known about the noise.
   constexpr double kNothingStated = 1e-3;
   const SingleScore score(causes, marginalised,
@@ -193,7 +165,7 @@ void test_significance(const AnalysisRules& rules, Analysis& a) {
   constexpr std::size_t kManyUnits = 150;
   const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
   a.null = draw_null(score, marginalised, rules.noise, draws, a.options.seed);
-  a.score = score.largest(marginalised.e);
+  a.score = score.largest(marginalised.e)(0);
   // C. Bonferroni's bound.
   a.family_wise_p = std::min(1.0, a.options.orders_tried * a.null.p_value(a.score));
 }
@@ -234,7 +206,7 @@ void estimate_decided(Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   a.noise = discrepancy_noise(a.system, marginalised,
                               a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
-  a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());
+  a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise);
 }
 
 void decide_by(const AnalysisRules& rules, bool detected, Analysis& a) {
@@ -248,12 +220,10 @@ void decide_by(const AnalysisRules& rules, bool detected, Analysis& a) {
 tl::expected<void, DiagnosisFailure> compare_in_rounds(const AnalysisRules& rules, Analysis& a) {
   for (int round = 1; round <= rules.rounds; ++round) {
     const bool last = round == rules.rounds;
-    // The columns of the round before.
-    a.system.g = {};
-    for (MarginalisedSystem& own : a.comparison.marginalised_systems) own.g = {};
+    a.system.g = {};  // the columns of the round before
     if (auto done = rules.linearise(a); !done) return done;
     if (round == 1) drop_hidden(rules.hidden, a);
-    compare(rules.compared(a, last), a);
+    a.comparison = compare_models(a.system, nothing_rejected(a.system), rules.compared(a, last));
     if (last) break;
     decide_by(rules, true, a);
     if (!rules.refit(a)) break;
@@ -289,7 +259,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
 Analysis analyse_without(Analysis a, const VectorXd& rows, const AnalysisRules& rules) {
   a.system.e -= rows;
   a.taken_out = rows;
-  compare(rules.compared(a, true), a);
+  a.comparison = compare_models(a.system, nothing_rejected(a.system), rules.compared(a, true));
   judge(rules, a);
   return a;
 }

@@ -36,9 +36,8 @@ struct Analysis {
   /// Results of each session alone; empty for a single one.
   std::vector<PartPosterior> sessions;
   Decision decision;
-  /// Kernel of the decision's discrepancy; null if it has none.
-  std::shared_ptr<const DiscrepancyNoise> noise;
-  Estimate estimate;  ///< of the decision's causes
+  DiscrepancyNoise noise;  ///< of the decision's discrepancy, or none
+  Estimate estimate;       ///< of the decision's causes
 };
 
 /// The steps from a session to a decision that differ between machines.

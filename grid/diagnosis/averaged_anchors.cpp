@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -155,7 +154,7 @@ class Averaging {
       const double weight = std::exp(log_weights[m] - most);
       if (weight > kLeastWeight) add(models[m], weight);
     }
-    const std::vector<Key> reported = reported_causes();
+    const std::vector<CauseId> reported = reported_causes();
     const belts::AnchorVector mean = change_with(reported);
     AveragedAnchors result;
     for (const Part& part : parts_) {
@@ -163,7 +162,7 @@ class Averaging {
       result.covariance_mm2 += part.weight / total_ * (part.covariance + off * off.transpose());
     }
     result.anchors = about_ + mean;
-    for (const Key& key : reported) {
+    for (const CauseId& key : reported) {
       const SizeMoments& moments = sizes_.at(key);
       result.causes.push_back(moments.averaged());
       result.causes.back().probability = moments.weight / total_;
@@ -172,27 +171,21 @@ class Averaging {
   }
 
  private:
-  /// An effect, and the number of its side.
-  using Key = std::pair<const void*, int>;
-
   /// Anchors of one model, relative to the state.
   struct Part {
     double weight = 0.0;
-    std::vector<Key> causes;  ///< sorted
+    std::vector<CauseId> causes;  ///< sorted
     belts::AnchorVector change;
     AnchorSquare covariance;
   };
-  static Key key_of(const Regressor& regressor) {
-    return {regressor.cause.effect, static_cast<int>(regressor.cause.side)};
-  }
 
   /// The likeliest expected cause, and all others more likely than not.
-  std::vector<Key> reported_causes() const {
+  std::vector<CauseId> reported_causes() const {
     double most = 0.0;
     for (const auto& [key, moments] : sizes_) {
       if (moments.expected) most = std::max(most, moments.weight);
     }
-    std::vector<Key> reported;
+    std::vector<CauseId> reported;
     for (const auto& [key, moments] : sizes_) {
       const bool likeliest = moments.expected && moments.weight >= most;
       if (likeliest || moments.weight / total_ > kMoreLikelyThanNot) reported.push_back(key);
@@ -202,7 +195,7 @@ class Averaging {
 
   /// Mean over the models with exactly these causes, or over all models if none has: anchors belong
   /// to the causes reported with them.
-  belts::AnchorVector change_with(const std::vector<Key>& causes) const {
+  belts::AnchorVector change_with(const std::vector<CauseId>& causes) const {
     belts::AnchorVector sum = belts::AnchorVector::Zero();
     double weight = 0.0;
     for (const Part& part : parts_) {
@@ -239,13 +232,13 @@ class Averaging {
 
   void add(const CandidateModel& model, double weight) {
     const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[model.marginalised];
-    auto& noise = noise_[{model.marginalised, model.discrepancy}];
-    if (noise == nullptr) noise = discrepancy_noise(system_, marginalised, model.discrepancy);
-    Estimate found = estimate(system_, marginalised, model.regressors, noise.get());
+    const auto [noise, is_new] = noise_.try_emplace({model.marginalised, model.discrepancy});
+    if (is_new) noise->second = discrepancy_noise(system_, marginalised, model.discrepancy);
+    Estimate found = estimate(system_, marginalised, model.regressors, noise->second);
     weight *= std::exp(hold_to_usual_sizes(a_.known, system_, found));
     total_ += weight;
-    std::vector<Key> causes;
-    for (const int index : model.regressors) causes.push_back(key_of(system_.regressor(index)));
+    std::vector<CauseId> causes;
+    for (const int index : model.regressors) causes.push_back(system_.regressor(index).cause);
     sort_unique(causes);
     parts_.push_back({weight, std::move(causes),
                       found.setting_change.head<belts::kAnchorUnknowns>(),
@@ -256,7 +249,7 @@ class Averaging {
       SizedCause cause = own;
       cause.values.front() = size_at(own, found.coefficient(row));
       const double slope = std::abs(size_slope(own, found.coefficient(row)));
-      SizeMoments& moments = sizes_[key_of(own)];
+      SizeMoments& moments = sizes_[own.cause];
       moments.expected = own.expected;
       moments.add(weight, cause, own.fixed ? 0.0 : slope * found.coefficient_sigma(row));
     }
@@ -265,11 +258,11 @@ class Averaging {
   const belts::AnchorVector& about_;
   const Analysis& a_;
   const RegressorSystem& system_;
-  std::map<const void*, double> share_of_effect_;
+  std::map<const Effect*, double> share_of_effect_;
   double total_ = 0.0;
   std::vector<Part> parts_;
-  std::map<std::pair<std::size_t, int>, std::shared_ptr<const DiscrepancyNoise>> noise_;
-  std::map<Key, SizeMoments> sizes_;
+  std::map<std::pair<std::size_t, int>, DiscrepancyNoise> noise_;
+  std::map<CauseId, SizeMoments> sizes_;
 };
 
 }  // namespace

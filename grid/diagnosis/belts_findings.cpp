@@ -149,14 +149,14 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
 Unexplained pattern_of_belts(const BeltsAnalysis& a) {
   Unexplained result;
   result.probability = std::clamp(a.decision.discrepancy, 0.0, 1.0);
-  if (a.noise == nullptr) return result;
+  if (!a.noise.is_of_process()) return result;
   const KeptRows& kept = marginalised_system(a).kept;
   const VectorXd all = kept(a.estimate.left);
   const VectorXd taken = all - kept(a.estimate.left_given_discrepancy);
   result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / as_double(taken.size()));
   result.signal_to_noise = result.rms_mm / a.sigma_mm * std::sqrt(as_double(a.system.e.size()));
   result.share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
-  result.length_mm = a.noise->process.kernel.fields.front().length;
+  result.length_mm = a.noise.process.kernel.fields.front().length;
   return result;
 }
 
@@ -172,7 +172,7 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
   const VectorXd moved = linear::least_squares(by_place, residual);
-  return (residual - by_place * moved).squaredNorm();
+  return (residual - linear::product(by_place, moved)).squaredNorm();
 }
 
 /// The belt that may be wrong instead: on the line between two anchors only the other two belts

@@ -217,6 +217,7 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
   constexpr std::size_t kBeyondTheBest = 8;
   RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;
+  system.groups.clear();
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     SystemUnit& unit = system.units[u];
     for (Index belt = 0; belt < 4; ++belt)

@@ -23,7 +23,7 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
   int best = -1;
   double most = -1.0;
   for (const int k : a.system.regressors_of(cause)) {
-    const auto g = marginalised.g.col(k);
+    const VectorXd g = reduced(marginalised, a.system.g.col(k));
     const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
     if (score > most) {
       most = score;
@@ -53,7 +53,9 @@ bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
 
 Nearest nearest_other(const Analysis& a, int column) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const auto own = marginalised.g.col(column);
+  const VectorXd own = reduced(marginalised, a.system.g.col(column));
+  const VectorXd products = with_regressors(a.system, marginalised, own);
+  const VectorXd squares = squared_lengths(a.system, marginalised);
   const auto excluded = [&](const CauseId& other) {
     if (same_class(a, other, regressor(a, column).cause)) return true;
     if (a.decision.verdict != Verdict::several_causes) return false;
@@ -62,9 +64,9 @@ Nearest nearest_other(const Analysis& a, int column) {
   };
   Nearest nearest;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-    const auto g = marginalised.g.col(as_index(k));
+    const auto at = as_index(k);
     if (excluded(a.system.regressors[k].cause)) continue;
-    const double collinearity = collinearity_of(g, own);
+    const double collinearity = collinearity_of(products(at), own.norm() * std::sqrt(squares(at)));
     // Among columns that differ only by rounding the first wins, on any processor.
     constexpr double kRounding = 1e-9;
     if (collinearity > nearest.collinearity + kRounding)
@@ -91,7 +93,7 @@ Shown shown(const Analysis& a) {
 
 Estimate estimate_with(const Analysis& a, RegressorSet regressors) {
   sort(regressors);
-  return estimate(a.system, marginalised_system(a), regressors, a.noise.get());
+  return estimate(a.system, marginalised_system(a), regressors, a.noise);
 }
 
 Estimate estimate_of(const Analysis& a, const RegressorSet& regressors) {

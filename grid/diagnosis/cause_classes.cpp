@@ -17,13 +17,14 @@ namespace {
 /// those of a cause with places.
 std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
                                                      const MarginalisedSystem& marginalised) {
+  const VectorXd c = with_regressors(system, marginalised, marginalised.e);
+  const VectorXd square = squared_lengths(system, marginalised);
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-    const auto column = marginalised.g.col(as_index(k));
-    const double length = column.norm();
-    if (!(length > 1e-4)) continue;
-    const double score = std::abs(column.dot(marginalised.e)) / length;
+    const auto at = as_index(k);
+    if (!(square(at) > 1e-8)) continue;
+    const double score = std::abs(c(at)) / std::sqrt(square(at));
     if (result.empty() || result.back().first != system.regressors[k].cause) {
       result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
       best = score;
@@ -97,10 +98,11 @@ bool is_whole(const RegressorSystem& system, const ModelComparison& comparison,
 
 bool one_class(const RegressorSystem& system, const ModelComparison& comparison,
                const Representative& a, const Representative& b) {
-  if (collinearity_of(a.free, b.free) < kOneClass) return false;
+  if (collinearity_of(a.free.dot(b.free), a.free.norm() * b.free.norm()) < kOneClass) return false;
   if (!a.fixed && !b.fixed) return true;
   // A whole link is large: if it needs an implausible chain zero, it is distinguished.
-  if (collinearity_of(a.stated, b.stated) < kOneClass) return false;
+  if (collinearity_of(a.stated.dot(b.stated), a.stated.norm() * b.stated.norm()) < kOneClass)
+    return false;
   // A whole number of teeth differs from an arbitrary amount.
   return a.fixed == b.fixed || (a.fixed ? is_whole(system, comparison, a.cause, b.cause)
                                         : is_whole(system, comparison, b.cause, a.cause));
@@ -141,14 +143,15 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   const LowRankNoise noise = nuisance_noise(system, marginalised.kept);
   const auto visible = [&](const MatrixXd& columns) { return noise.half_solve(columns); };
   const Index settings = system.by_setting.cols() - system.nuisances;
-  const MatrixXd basis = range_of_settings(
-      system, visible(marginalised.kept.of(system.by_setting.leftCols(settings))));
+  const MatrixXd basis =
+      range_of_settings(system, visible(marginalised.kept(system.by_setting.leftCols(settings))));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
   Flags mixed;  // whole numbers and any amounts
   for (const auto& [cause, column] : best_regressors(system, marginalised)) {
-    Representative own{visible(marginalised.kept(system.g.col(column))), marginalised.g.col(column),
-                       cause, system.regressor(column).fixed};
+    Representative own{visible(marginalised.kept(system.g.col(column))),
+                       reduced(marginalised, system.g.col(column)), cause,
+                       system.regressor(column).fixed};
     const double whole = own.free.norm();
     linear::add_product(own.free, -1.0, basis,
                         linear::product(linear::transposed(basis), own.free));

@@ -3,6 +3,8 @@
 /// What may be named: an effect of the catalogue at a side.
 #pragma once
 
+#include <compare>
+
 namespace chaintrue::model::effects {
 struct Effect;
 enum class EffectSide;
@@ -14,7 +16,7 @@ namespace chaintrue::grid::diagnosis {
 struct CauseId {
   const model::effects::Effect* effect = nullptr;
   model::effects::EffectSide side{};  ///< EffectSide::none
-  friend bool operator==(const CauseId&, const CauseId&) = default;
+  friend auto operator<=>(const CauseId&, const CauseId&) = default;
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -17,11 +17,10 @@ constexpr double kHardlyLikely = 0.1;
 bool may_name_a_cause(const Analysis& a, const VectorXd& rows) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const VectorXd e = marginalised.e - reduced(marginalised, rows);
-  const NoiseDensity noise(a.system.noise_dof, marginalised.kept.size());
-  const SingleScores scores = single_scores(a.system, marginalised, noise, e);
   const double beforehand = log_odds_of_another(a.system, {}, false);
   const double least = std::log(kHardlyLikely / (1.0 - kHardlyLikely));
-  return any_of(scores.log_factor, [&](double factor) { return factor + beforehand > least; });
+  return any_of(single_scores(a.system, marginalised, e),
+                [&](const CauseScore& own) { return own.log_factor + beforehand > least; });
 }
 
 bool holds(const Analysis& a, const CauseId& cause) {

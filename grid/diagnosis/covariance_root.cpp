@@ -16,26 +16,15 @@ VectorXd CovarianceRoot::change(double exponent) const {
   return (exponent * log_variance_).exp() - 1.0;
 }
 
-void CovarianceRoot::multiply(double exponent, Eigen::Ref<MatrixXd> m) const {
+void CovarianceRoot::add_change(Eigen::Ref<MatrixXd> m) const {
   MatrixXd along = linear::product(linear::transposed(basis_), m);
-  const VectorXd own = change(exponent);
+  const VectorXd own = change(-0.5);
   for (Index k = 0; k < along.cols(); ++k) along.col(k).array() *= own.array();
   linear::add_product(m, 1.0, basis_, along);
 }
 
 MatrixXd CovarianceRoot::explained() const {
   return linear::scaled_columns(basis_, (-change(-1.0)).cwiseSqrt());
-}
-
-MatrixXd CovarianceRoot::precision_block(Index row, Index rows, Index column, Index columns) const {
-  MatrixXd result = linear::product(
-      basis_.middleRows(row, rows),
-      linear::transposed(linear::scaled_columns(basis_.middleRows(column, columns), change(-1.0))));
-  for (Index k = 0; k < columns; ++k) {
-    const Index own = column + k - row;
-    if (own >= 0 && own < rows) result(own, k) += 1.0;
-  }
-  return result;
 }
 
 LowRankNoise::LowRankNoise(MatrixXd a) : a_(std::move(a)), normal_(linear::one_plus_gram(a_)) {}

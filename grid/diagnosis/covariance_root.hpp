@@ -29,27 +29,17 @@ class CovarianceRoot {
   /// V^(-1/2) m.
   template <class M>
   linear::Like<M> solve(const M& m) const {
-    return multiplied<linear::Like<M>>(-0.5, m);
-  }
-  /// V^(1/2) m.
-  template <class M>
-  linear::Like<M> times(const M& m) const {
-    return multiplied<linear::Like<M>>(0.5, m);
+    linear::Like<M> result = m;
+    add_change(result);
+    return result;
   }
   /// T with V^-1 = 1 - T T'.
   MatrixXd explained() const;
-  /// The block of V^(-1) of this size that starts at these indices.
-  MatrixXd precision_block(Index row, Index rows, Index column, Index columns) const;
   double log_det() const { return log_variance_.sum(); }
 
  private:
-  /// V^exponent m.
-  template <class M>
-  M multiplied(double exponent, M m) const {
-    multiply(exponent, m);
-    return m;
-  }
-  void multiply(double exponent, Eigen::Ref<MatrixXd> m) const;
+  /// m += (V^(-1/2) - 1) m
+  void add_change(Eigen::Ref<MatrixXd> m) const;
   VectorXd change(double exponent) const;
   MatrixXd basis_;        ///< U
   ArrayXd log_variance_;  ///< log(1 + a^2)

@@ -80,20 +80,18 @@ class DiscrepancyBasis::Fields {
   MatrixXd with(const Block& block, const NormalEquations& plain) {
     auto known = block.products->with.find(&plain);
     if (known == block.products->with.end())
-      known = block.products->with
-                  .emplace(&plain, products_with(*block.products,
-                                                 residual_and(marginalised_, plain.columns)))
-                  .first;
+      known =
+          block.products->with.emplace(&plain, products_with(*block.products, plain.rows)).first;
     const auto& [first, second] = known->second;
     return block.c * first + block.s * second;
   }
 
   /// Computes the inner products of all fields with these columns, so that `with` changes nothing.
   void relate_all(const NormalEquations& plain) {
-    const MatrixXd e = residual_and(marginalised_, plain.columns);
     for (Products& own : all_) own.with.try_emplace(&plain);
-    for_each_index(all_.size(),
-                   [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
+    for_each_index(all_.size(), [&](std::size_t k) {
+      all_[k].with.at(&plain) = products_with(all_[k], plain.rows);
+    });
   }
 
   void forget() {
@@ -207,7 +205,7 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
   result.subdiagonal_ = own.tridiagonal.subdiagonal();
   MatrixXd with(result.on_.size(), lines);
   if (own.turned.size() > 0) {
-    with = linear::product(own.turned, residual_and(marginalised_, plain.columns));
+    with = linear::product(own.turned, plain.rows);
   } else {
     Index row = 0;
     for (const Block& block : own.blocks) {
@@ -264,12 +262,9 @@ DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(
 
 NormalEquations DiscrepancyBasis::GivenKernel::equations(double strength,
                                                          RegressorSet columns) const {
-  ColumnSet at;
+  const ColumnSet at = plain_->positions(columns);
   Rows line = {0};
-  for (const int k : columns) {
-    at.push_back(plain_->position(k));
-    line.push_back(at.back() + 1);
-  }
+  for (const Index column : at) line.push_back(column + 1);
   const Half own = half(strength);
   MatrixXd lines = rotated_(line, Eigen::all);
   apply(own, lines);

@@ -43,7 +43,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
   };
   const double best = comparison.best().log_weight;
   std::map<FactorisationKey, std::vector<CandidateModel>> result;
-  std::map<FactorisationKey, std::vector<CauseId>> alone;
+  std::set<std::pair<FactorisationKey, CauseId>> alone;
   std::set<std::size_t> marginalised_systems;
   std::size_t taken = 0;
   double last = best;
@@ -54,12 +54,8 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
     const bool leads = model.log_weight > best - limits.within &&
                        (taken < limits.most || tied(model.log_weight, last));
     bool first_alone = model.regressors.empty();
-    if (model.regressors.size() == 1) {
-      const CauseId& cause = system.regressor(model.regressors[0]).cause;
-      auto& known = alone[key];
-      first_alone = !contains(known, cause);
-      if (first_alone) known.push_back(cause);
-    }
+    if (model.regressors.size() == 1)
+      first_alone = alone.emplace(key, system.regressor(model.regressors[0]).cause).second;
     if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
     if (leads && taken < limits.most) last = model.log_weight;
     taken += leads ? 1 : 0;
@@ -81,14 +77,8 @@ void clear_unobserved_columns(const NormalEquations& before, NormalEquations& eq
 
 /// The outlier groups with all of these units set to `rejected`.
 Flags with_units(const RegressorSystem& system, Flags groups, const Indices& units, bool rejected) {
-  if (system.groups.empty()) {
-    for (const std::size_t unit : units) groups[unit] = rejected;
-    return groups;
-  }
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const auto row = as_size(system.groups[k].first_row);
-    const auto own = as_size(system.unit_of_row[row]);
-    if (contains(units, own)) groups[k] = rejected;
+    if (contains(units, system.unit_of(system.groups[k]))) groups[k] = rejected;
   }
   return groups;
 }
@@ -135,24 +125,19 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number, int d
   RegressorSet columns;
   for (const CandidateModel& model : models) append_all(columns, model.regressors);
   sort_unique(columns);
-  const MatrixXd e = residual_and(marginalised, columns);
+  NormalEquations equations = normal_equations(system_, marginalised, std::move(columns));
+  const MatrixXd e = std::exchange(equations.rows, {});
   const MatrixXd pattern = discrepancy_columns(system_, marginalised, discrepancy);
   Factorisation factorised{
-      number,
-      discrepancy,
+      number, discrepancy,
       LeaveOut(marginalised.root, LowRankNoise(marginalised.root.solve(pattern)), e),
-      {},
-      std::move(models)};
-  NormalEquations& equations = factorised.equations;
-  equations.prior_square = prior_squares(system_.regressors, columns,
-                                         e.rightCols(std::ssize(columns)).colwise().squaredNorm());
-  equations.columns = std::move(columns);
-  take_inner(factorised.rows.without({}), equations);
+      std::move(equations), std::move(models)};
+  take_inner(factorised.rows.without({}), factorised.equations);
   const NoiseDensity noise(system_.noise_dof, e.rows());
   for (const CandidateModel& model : factorised.models) {
-    ColumnSet set;
-    for (const int k : model.regressors) set.push_back(equations.position(k));
-    const double evidence = set_evidence(equations, system_.regressors, set, noise).log_evidence;
+    ColumnSet set = factorised.equations.positions(model.regressors);
+    const double evidence =
+        set_evidence(factorised.equations, system_.regressors, set, noise).log_evidence;
     factorised.prior.push_back(model.log_weight - evidence - marginalised.log_outliers);
     factorised.sets.push_back(std::move(set));
   }

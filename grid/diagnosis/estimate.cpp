@@ -14,13 +14,10 @@ struct Solution {
 };
 
 /// `settings`: the settings' expected change; the sizes' is zero.
-Solution solve(Unknowns unknowns, const VectorXd& settings, VectorXd data,
-               const LowRankNoise* noise) {
-  MatrixXd& design = unknowns.design;
-  if (noise != nullptr) {
-    design = noise->half_solve(design);
-    data = noise->half_solve(data);
-  }
+Solution solve(const Unknowns& unknowns, const VectorXd& settings, VectorXd data,
+               const LowRankNoise& noise) {
+  const MatrixXd design = noise.half_solve(unknowns.design);
+  data = noise.half_solve(data);
   VectorXd mean = VectorXd::Zero(design.cols());
   mean.head(settings.size()) = settings;
   linear::add_product(data, -1.0, design, mean);
@@ -72,7 +69,7 @@ Unknowns unknowns_of(const RegressorSystem& system, const MarginalisedSystem& ma
   const Index settings = system.setting.size();
   const Index all = settings + std::ssize(free);
   Unknowns result{MatrixXd(marginalised.kept.size(), all), VectorXd(all)};
-  result.design.leftCols(settings) = marginalised.kept.of(system.by_setting);
+  result.design.leftCols(settings) = marginalised.kept(system.by_setting);
   result.sigma.head(settings) = system.sigma;
   for (Index k = settings; k < all; ++k) {
     const int column = free[as_size(k - settings)];
@@ -85,20 +82,17 @@ Unknowns unknowns_of(const RegressorSystem& system, const MarginalisedSystem& ma
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                   const RegressorSet& regressors, int discrepancy) {
   return estimate(system, marginalised, regressors,
-                  discrepancy_noise(system, marginalised, discrepancy).get());
+                  discrepancy_noise(system, marginalised, discrepancy));
 }
 
-std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem& system,
-                                                          const MarginalisedSystem& marginalised,
-                                                          int discrepancy) {
-  if (discrepancy < 0) return nullptr;
-  return std::make_shared<DiscrepancyNoise>(
-      DiscrepancyNoise{discrepancy_of(system, marginalised, discrepancy),
-                       LowRankNoise(discrepancy_columns(system, marginalised, discrepancy))});
+DiscrepancyNoise discrepancy_noise(const RegressorSystem& system,
+                                   const MarginalisedSystem& marginalised, int discrepancy) {
+  return {discrepancy < 0 ? Discrepancy{} : discrepancy_of(system, marginalised, discrepancy),
+          LowRankNoise(discrepancy_columns(system, marginalised, discrepancy))};
 }
 
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                  const RegressorSet& regressors, const DiscrepancyNoise* noise) {
+                  const RegressorSet& regressors, const DiscrepancyNoise& noise) {
   Estimate result;
   result.regressors = regressors;
   const auto settings = system.setting.size();
@@ -116,9 +110,8 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   Solution solution;
   // A coefficient that leaves its bounds is fixed there and the rest solved again.
   while (true) {
-    solution =
-        solve(unknowns_of(system, marginalised, result.free_regressors()), system.expected_change,
-              marginalised.kept(data), noise != nullptr ? &noise->covariance : nullptr);
+    solution = solve(unknowns_of(system, marginalised, result.free_regressors()),
+                     system.expected_change, marginalised.kept(data), noise.covariance);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressor(regressors[result.free[k]]);
@@ -134,21 +127,20 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
   }
   result.setting_change = solution.value.head(settings);
-  VectorXd left = data;
-  linear::add_product(left, -1.0, system.by_setting, result.setting_change);
+  result.left = std::move(data);
+  linear::add_product(result.left, -1.0, system.by_setting, result.setting_change);
   for (std::size_t k = 0; k < result.free.size(); ++k) {
     const auto at = as_index(result.free[k]);
     const Index column = settings + as_index(k);
     result.coefficient(at) = solution.value(column);
-    left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
+    result.left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
-  result.left = left;
-  result.left_given_discrepancy = left;
-  const VectorXd kept = marginalised.kept(left);
+  result.left_given_discrepancy = result.left;
+  const VectorXd kept = marginalised.kept(result.left);
   double quadratic = kept.squaredNorm();
-  if (noise != nullptr) {
-    result.discrepancy = noise->process;
-    result.discrepancy_weights = noise->covariance.solve(kept);
+  if (noise.is_of_process()) {
+    result.discrepancy = noise.process;
+    result.discrepancy_weights = noise.covariance.solve(kept);
     quadratic = kept.dot(result.discrepancy_weights);
     take_discrepancy_out(system, marginalised, result);
   }
@@ -166,8 +158,8 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     const auto at = as_index(k);
     const bool is_fixed = system.regressor(regressors[k]).fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
-    const double length = std::max(reduced_length(system, marginalised, regressors[k]), 1e-12);
-    result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;
+    const double length = reduced(marginalised, system.g.col(regressors[k])).norm();
+    result.coefficient_sigma(at) = std::sqrt(result.noise_square) / std::max(length, 1e-12);
   }
   return result;
 }

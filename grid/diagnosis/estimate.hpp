@@ -4,7 +4,6 @@
 /// comparison; and the residual at every point, including held-out ones.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
@@ -51,13 +50,13 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
 struct DiscrepancyNoise {
   Discrepancy process;
   LowRankNoise covariance;  ///< 1 + s^2 K
+  bool is_of_process() const { return process.sigma_mm > 0.0; }
 };
-/// Null for no discrepancy.
-std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem& system,
-                                                          const MarginalisedSystem& marginalised,
-                                                          int discrepancy);
+/// Of -1: no process, and the noise alone.
+DiscrepancyNoise discrepancy_noise(const RegressorSystem& system,
+                                   const MarginalisedSystem& marginalised, int discrepancy);
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                  const RegressorSet& regressors, const DiscrepancyNoise* noise);
+                  const RegressorSet& regressors, const DiscrepancyNoise& noise);
 
 /// The model discrepancy of either chain at a place [mm]; zero without one.
 Vector2d discrepancy_at(const RegressorSystem& system, const MarginalisedSystem& marginalised,

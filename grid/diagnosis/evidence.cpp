@@ -64,30 +64,25 @@ double log_price_of_outlier(Index rows) {
 
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers) {
   double price = 0.0;
-  if (system.groups.empty()) {
-    for (std::size_t u = 0; u < outliers.size(); ++u) {
-      if (outliers[u]) price += log_price_of_outlier(system.units[u].rows);
-    }
-    return price;
-  }
-  // Each direction is a separate slip, and a unit has at most as many as rows.
-  Rows of_unit(system.units.size(), 0);
+  Rows directions(system.units.size(), 0);
   for (std::size_t k = 0; k < outliers.size(); ++k) {
     const OutlierGroup& group = system.groups[k];
-    const int unit = system.unit_of_row[as_size(group.first_row)];
-    Index& own = of_unit[as_size(unit)];
-    if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
+    if (!outliers[k]) continue;
+    if (!group.direction) {
+      price += log_price_of_outlier(group.rows);
+    } else if (directions[system.unit_of(group)]++ < group.rows) {
+      price += log_price_of_outlier(1);
+    }
   }
-  for (const Index directions : of_unit) price += as_double(directions) * log_price_of_outlier(1);
   return price;
 }
 
-MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& outliers) {
+MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
   marginalised.log_outliers = log_price_of_outliers(system, outliers);
-  const MatrixXd a = marginalised.kept.of(system.by_setting);
+  const MatrixXd a = marginalised.kept(system.by_setting);
   VectorXd e = marginalised.kept(system.e);
   linear::add_product(e, -1.0, a, system.expected_change);
   marginalised.root = CovarianceRoot(linear::scaled_columns(a, system.sigma));
@@ -96,25 +91,15 @@ MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& 
   return marginalised;
 }
 
-MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers) {
-  MarginalisedSystem marginalised = marginalise_rows(system, outliers);
-  marginalised.g = system.g.mapped([&](const auto& columns) {
-    // With hundreds of visits they are the largest matrix of all, so nothing else is of that size.
-    constexpr Index kAtOnce = 256;
-    MatrixXd result(marginalised.kept.size(), columns.cols());
-    for (Index at = 0; at < columns.cols(); at += kAtOnce) {
-      const Index count = std::min(kAtOnce, columns.cols() - at);
-      result.middleCols(at, count) =
-          marginalised.root.solve(marginalised.kept.of(columns.middleCols(at, count)));
-    }
-    return result;
-  });
-  return marginalised;
+VectorXd squared_lengths(const RegressorSystem& system, const MarginalisedSystem& marginalised) {
+  const KeptRows& kept = marginalised.kept;
+  const MatrixXd explained = system.g.transpose_times(kept.spread(marginalised.root.explained()));
+  return (system.g.squared_norms(kept) - explained.rowwise().squaredNorm()).cwiseMax(0.0);
 }
 
 LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept) {
-  return LowRankNoise(linear::scaled_columns(kept.of(nuisance_columns(system)),
-                                             system.sigma.tail(system.nuisances)));
+  return LowRankNoise(
+      linear::scaled_columns(kept(nuisance_columns(system)), system.sigma.tail(system.nuisances)));
 }
 
 double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
@@ -124,33 +109,26 @@ double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
 
 VectorXd left_by(const KeptRows& kept, const MatrixXd& columns, const VectorXd& sigma,
                  VectorXd rows) {
-  const MatrixXd scaled = linear::scaled_columns(kept.of(columns), sigma);
+  const MatrixXd scaled = linear::scaled_columns(kept(columns), sigma);
   const VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
                          .solve(linear::product(linear::transposed(scaled), kept(rows)));
   linear::add_product(rows, -1.0, columns, sigma.cwiseProduct(x));
   return rows;
 }
 
-VectorXd reduced(const MarginalisedSystem& marginalised, const VectorXd& column) {
-  return marginalised.root.solve(marginalised.kept(column));
-}
-
-double reduced_length(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                      int regressor) {
-  return marginalised.g.cols() > 0 ? marginalised.g.col(regressor).norm()
-                                   : reduced(marginalised, system.g.col(regressor)).norm();
-}
-
 double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                               int regressor) {
   const double usual = system.regressor(regressor).coefficient_sigma;
   if (usual > 0.0) return usual * kWideSignalToNoise / kUsualSignalToNoise;
-  return kWideSignalToNoise / std::max(reduced_length(system, marginalised, regressor), 1e-12);
+  const double length = reduced(marginalised, system.g.col(regressor)).norm();
+  return kWideSignalToNoise / std::max(length, 1e-12);
 }
 
-Index NormalEquations::position(int column) const {
-  const auto found = std::lower_bound(columns.begin(), columns.end(), column);
-  return as_index(found - columns.begin());
+ColumnSet NormalEquations::positions(const RegressorSet& some) const {
+  ColumnSet result;
+  for (const int k : some)
+    result.push_back(std::lower_bound(columns.begin(), columns.end(), k) - columns.begin());
+  return result;
 }
 
 VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
@@ -164,24 +142,24 @@ VectorXd prior_squares(const std::vector<Regressor>& regressors, const Regressor
 
 NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised, RegressorSet columns) {
-  NormalEquations equations;
   sort(columns);
-  equations.columns = std::move(columns);
-  const MatrixXd g = marginalised.g.dense(equations.columns);
+  const MatrixXd g = reduced(marginalised, system.g.dense(columns));
+  return normal_equations(system.regressors, marginalised, std::move(columns), g);
+}
+
+NormalEquations normal_equations(const std::vector<Regressor>& regressors,
+                                 const MarginalisedSystem& marginalised, RegressorSet columns,
+                                 const MatrixXd& g) {
+  NormalEquations equations;
+  equations.rows.resize(g.rows(), 1 + g.cols());
+  equations.rows << marginalised.e, g;
   equations.ee = marginalised.e.squaredNorm();
   equations.ge = linear::product(linear::transposed(g), marginalised.e);
   equations.gg = linear::gram(g);
-  equations.prior_square =
-      prior_squares(system.regressors, equations.columns, equations.gg.diagonal());
+  equations.prior_square = prior_squares(regressors, columns, equations.gg.diagonal());
+  equations.columns = std::move(columns);
   equations.log_det = marginalised.log_det;
   return equations;
-}
-
-MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns) {
-  MatrixXd e(marginalised.e.size(), std::ssize(columns) + 1);
-  e.col(0) = marginalised.e;
-  e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
-  return e;
 }
 
 Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,

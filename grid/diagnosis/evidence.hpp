@@ -69,12 +69,10 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points rejected.
 struct MarginalisedSystem {
-  Flags outliers;       ///< a flag for each outlier group
-  KeptRows kept;        ///< N rows
-  CovarianceRoot root;  ///< N x N, R of V = R R
-  VectorXd e;           ///< N, R^-1 times the residual
-  RegressorColumns
-      g;  ///< N x a column a regressor, R^-1 times it; none if only an estimate is made
+  Flags outliers;             ///< a flag for each outlier group
+  KeptRows kept;              ///< N rows
+  CovarianceRoot root;        ///< N x N, R of V = R R
+  VectorXd e;                 ///< N, R^-1 times the residual
   double log_det = 0.0;       ///< log |V|
   double log_outliers = 0.0;  ///< prior and density of the rejected points
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
@@ -82,14 +80,23 @@ struct MarginalisedSystem {
 };
 /// Natural logarithm of the prior times the density of one rejected unit with this many rows.
 double log_price_of_outlier(Index rows);
-/// For all these groups; directions count separately.
+/// For all these groups. Each direction is a separate slip, and a unit has at most as many as rows.
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers);
 MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers);
-/// The same without g.
-MarginalisedSystem marginalise_rows(const RegressorSystem& system, const Flags& outliers);
-/// Length of R^-1 times a regressor's column.
-double reduced_length(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                      int regressor);
+/// R^-1 of columns of all rows.
+template <class M>
+linear::Like<M> reduced(const MarginalisedSystem& marginalised, const M& columns) {
+  return marginalised.root.solve(marginalised.kept(columns));
+}
+/// Inner products of every regressor's reduced column with those of a matrix, or with a vector.
+/// With hundreds of visits these columns are the largest matrix of all, so they are never made.
+template <class M>
+linear::Like<M> with_regressors(const RegressorSystem& system,
+                                const MarginalisedSystem& marginalised, const M& columns) {
+  return system.g.transpose_times(marginalised.kept.spread(marginalised.root.solve(columns)));
+}
+/// Of every regressor's reduced column.
+VectorXd squared_lengths(const RegressorSystem& system, const MarginalisedSystem& marginalised);
 /// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
 /// appears in the readings.
 LowRankNoise nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
@@ -98,41 +105,42 @@ double length_in_noise(const RegressorSystem& system, const KeptRows& kept, cons
 /// The rows after subtracting these columns with the amplitudes that the kept rows give them.
 VectorXd left_by(const KeptRows& kept, const MatrixXd& columns, const VectorXd& sigma,
                  VectorXd rows);
-/// R^-1 of a column of all rows.
-VectorXd reduced(const MarginalisedSystem& marginalised, const VectorXd& column);
 /// One sigma of a regressor's coefficient under the wide prior of its size.
 double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                               int regressor);
 
-/// |cosine| of two whitened signatures; 0 if one of them is zero.
-template <class One, class Other>
-double collinearity_of(const One& one, const Other& other) {
+/// |cosine| of two whitened signatures by their inner product and the product of their lengths; 0 if one
+/// of them is zero.
+inline double collinearity_of(double product, double lengths) {
   // Visible signatures are several sigmas long.
   constexpr double kNothing = 1e-12;
-  const double lengths = one.norm() * other.norm();
-  return lengths > kNothing ? std::min(1.0, std::abs(one.dot(other)) / lengths) : 0.0;
+  return lengths > kNothing ? std::min(1.0, std::abs(product) / lengths) : 0.0;
 }
 
 /// Inner products of the residual and of some columns.
 struct NormalEquations {
   RegressorSet columns;  ///< m regressors, ascending
-  double ee = 0.0;       ///< e'e
-  VectorXd ge;           ///< m, g'e
-  MatrixXd gg;           ///< m x m, g'g
+  /// N x (1 + m): the residual and the columns; empty given a discrepancy or without some rows.
+  MatrixXd rows;
+  double ee = 0.0;  ///< e'e
+  VectorXd ge;      ///< m, g'e
+  MatrixXd gg;      ///< m x m, g'g
   /// m: the unit of the prior of a size. It is g'g without a discrepancy or, if the prior is on the
   /// size itself (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
   VectorXd prior_square;
   double log_det = 0.0;  ///< of V and the discrepancy, without the noise's scale
-  Index position(int column) const;
+  /// Of some of the columns.
+  ColumnSet positions(const RegressorSet& some) const;
 };
 /// NormalEquations::prior_square of columns with these squares.
 VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
                        VectorXd squares);
 NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised, RegressorSet columns);
-
-/// The residual and these columns, N x (1 + columns).
-MatrixXd residual_and(const MarginalisedSystem& marginalised, const RegressorSet& columns);
+/// The same of columns that are reduced already.
+NormalEquations normal_equations(const std::vector<Regressor>& regressors,
+                                 const MarginalisedSystem& marginalised, RegressorSet columns,
+                                 const MatrixXd& reduced_columns);
 
 /// Kernel and size of a discrepancy, in a marginalised system.
 Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,

@@ -83,10 +83,11 @@ void predict(const Analysis& a, const RegressorSystem& system, const ColumnOf& c
              Alternative& h) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const auto noise = discrepancy_noise(a.system, marginalised, h.discrepancy);
-  const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise.get());
+  const Estimate fitted = estimate(a.system, marginalised, h.regressors, noise);
   ExpectedRows expected = expected_rows(a, fitted, system, column_of_cause);
   h.covariance.setZero(system.e.size(), system.e.size());
-  if (noise) h.covariance = add_discrepancy(a, system, fitted, noise->covariance, expected);
+  if (noise.is_of_process())
+    h.covariance = add_discrepancy(a, system, fitted, noise.covariance, expected);
   h.mean = std::move(expected.mean);
   // Holes not yet cut have their own columns, after all others.
   const Index to_come = system.by_setting.cols() - fitted.setting_change.size();

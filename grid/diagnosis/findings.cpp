@@ -117,7 +117,7 @@ class PlaceOfCause {
     auto& [design, sigma] = unknowns;
     const Index last = sigma.size();
     design.leftCols(a_.system.setting.size()) +=
-        coefficient * marginalised.kept.of(slope_by_settings());
+        coefficient * marginalised.kept(slope_by_settings());
     design.conservativeResize(Eigen::NoChange, last + 1);
     design.col(last) = coefficient * marginalised.kept(slope);
     sigma.conservativeResize(last + 1);
@@ -125,13 +125,13 @@ class PlaceOfCause {
     const double range = place_.upper - place_.lower;
     sigma(last) =
         (place_.name.ends_with("_rad") ? std::min(range, kTurn) : range) / std::sqrt(12.0);
-    if (a_.noise) design = a_.noise->covariance.half_solve(design);
+    design = a_.noise.covariance.half_solve(design);
     const MatrixXd scaled = linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
     const linear::Cholesky normal(linear::one_plus_gram(scaled));
     const VectorXd column_of_inverse = normal.solve(VectorXd::Unit(last + 1, last));
     // With a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
     // step either way.
-    const double step = a_.noise ? step_of_places() : 0.0;
+    const double step = a_.noise.is_of_process() ? step_of_places() : 0.0;
     return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
   }
 
@@ -180,7 +180,10 @@ std::vector<ParameterEstimate> parameters_of(const Analysis& a, int column,
 constexpr double kQuantile95 = 1.645;  // one-sided 95 %
 constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
-/// Length of a column before projection on the settings.
+/// Length of a column, and before projection on the settings.
+double reduced_length(const Analysis& a, int column) {
+  return reduced(marginalised_system(a), a.system.g.col(column)).norm();
+}
 double raw_length(const Analysis& a, int column) {
   return length_in_noise(a.system, marginalised_system(a).kept, a.system.g.col(column));
 }
@@ -207,7 +210,7 @@ Cause describe(const Analysis& a, std::size_t index) {
     const Index at = fitted.position(column);
     auto found = parameters_of(a, column, fitted);
     if (member == members.front()) {
-      const double length = marginalised_system(a).g.col(column).norm();
+      const double length = reduced_length(a, column);
       cause.signal_to_noise = std::abs(fitted.coefficient(at)) * length;
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
@@ -271,7 +274,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     if (contains(a.decision.listed, a.decision.class_of(cause))) continue;
     const int column = best_regressor(a, cause);
     const EffectParameter& size = cause.effect->parameters.front();
-    const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();
+    const double left = column < 0 ? 0.0 : reduced_length(a, column);
     if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
       not_testable.push_back({cause, "calibrating the settings would hide its whole effect"});
       continue;

@@ -22,6 +22,13 @@ struct Scouted {
   std::vector<std::pair<double, int>> singles;
 };
 
+/// With the regressors of more sets, ascending.
+RegressorSet with_sets(RegressorSet set, const std::vector<RegressorSet>& more) {
+  for (const RegressorSet& own : more) append_all(set, own);
+  sort_unique(set);
+  return set;
+}
+
 class Scout {
  public:
   Scout(const RegressorSystem& system, const NormalEquations& plain,
@@ -47,10 +54,8 @@ class Scout {
     if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
     result.singles = std::move(all);
     if (best_models_.empty()) return result;
-    RegressorSet columns;
-    for (const RegressorSet& set : best_models_) append_all(columns, set);
-    sort_unique(columns);
-    const NormalEquations equations = given.equations(family().strength_of(discrepancy), columns);
+    const NormalEquations equations =
+        given.equations(family().strength_of(discrepancy), with_sets({}, best_models_));
     for (const RegressorSet& set : best_models_) {
       result.weight = std::max(result.weight, together(equations, discrepancy, set));
     }
@@ -77,9 +82,8 @@ class Scout {
 
   double together(const NormalEquations& equations, int discrepancy,
                   const RegressorSet& set) const {
-    ColumnSet all;
-    for (const int k : set) all.push_back(equations.position(k));
-    return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
+    return set_evidence(equations, system_.regressors, equations.positions(set), collector_.noise())
+               .log_evidence +
            collector_.log_prior_of(set, discrepancy);
   }
 
@@ -96,15 +100,10 @@ void search_given(const RegressorSystem& system, const NormalEquations& equation
                   const SearchLimits& limits, const RegressorSet& singles,
                   const std::vector<RegressorSet>& best_models, ModelCollector& collector) {
   GrowingSets sets(system, equations, discrepancy, limits, collector);
-  const auto positions = [&](const RegressorSet& regressors) {
-    ColumnSet set;
-    for (const int k : regressors) set.push_back(equations.position(k));
-    return set;
-  };
-  const ColumnSet alone = positions(singles);
+  const ColumnSet alone = equations.positions(singles);
   sets.weigh({});
   for (const Index column : alone) sets.weigh({column});
-  for (const RegressorSet& regressors : best_models) sets.weigh(positions(regressors));
+  for (const RegressorSet& regressors : best_models) sets.weigh(equations.positions(regressors));
   sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true},
             [&](const ColumnSet&) { return alone; });
 }
@@ -116,12 +115,9 @@ using ScoredRegressors = std::vector<std::pair<double, int>>;
 RegressorSet first_of_each_cause(const RegressorSystem& system, const ScoredRegressors& sorted,
                                  std::size_t most) {
   RegressorSet result;
-  std::vector<std::pair<CauseId, std::vector<double>>> taken;
+  std::map<CauseId, std::vector<double>> taken;
   for (const auto& [score, k] : sorted) {
-    const CauseId& cause = system.regressor(k).cause;
-    auto* known = find_where(taken, [&](const auto& own) { return own.first == cause; });
-    auto& scores =
-        (known != nullptr ? *known : taken.emplace_back(cause, std::vector<double>{})).second;
+    std::vector<double>& scores = taken[system.regressor(k).cause];
     if (scores.size() >= most && !tied(score, scores[most - 1])) continue;
     scores.push_back(score);
     result.push_back(k);
@@ -135,16 +131,12 @@ RegressorSet columns_to_scout(const RegressorSystem& system, const NormalEquatio
   ScoredRegressors scored;
   for (std::size_t k = 0; k < plain.columns.size(); ++k) {
     const auto at = as_index(k);
-    const bool fixed = system.regressor(plain.columns[k]).fixed;
-    const double gain = fixed ? 2.0 * plain.ge(at) - plain.gg(at, at)
-                              : plain.ge(at) * plain.ge(at) / plain.gg(at, at);
+    const double gain =
+        score_alone(system.regressor(plain.columns[k]), plain.ge(at), plain.gg(at, at));
     scored.emplace_back(gain, plain.columns[k]);
   }
   stable_sort(scored, descending(&ScoredRegressors::value_type::first));
-  RegressorSet result = first_of_each_cause(system, scored, 4);
-  for (const auto& set : best_models) append_all(result, set);
-  sort_unique(result);
-  return result;
+  return with_sets(first_of_each_cause(system, scored, 4), best_models);
 }
 
 /// Only the best places of each cause.

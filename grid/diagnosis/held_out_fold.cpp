@@ -32,11 +32,11 @@ int preferred_discrepancy(const ModelComparison& comparison, std::size_t margina
 Errors errors_at(const Indices& units, const Analysis& a, const ModelComparison& comparison,
                  const Decision& decision) {
   const MarginalisedSystem marginalised =
-      marginalise_rows(a.system, comparison.marginalised_systems[decision.marginalised].outliers);
-  std::map<int, std::shared_ptr<const DiscrepancyNoise>> noise;
+      marginalise(a.system, comparison.marginalised_systems[decision.marginalised].outliers);
+  std::map<int, DiscrepancyNoise> noise;
   // The residual without the model's discrepancy.
   const auto left = [&](const MarginalisedSystem& own, const RegressorSet& causes,
-                        const DiscrepancyNoise* given) {
+                        const DiscrepancyNoise& given) {
     const Estimate model = estimate(a.system, own, causes, given);
     return errors_of_units(a.system, left_of_machine(a.system, model, model.left_given_discrepancy),
                            units);
@@ -45,7 +45,8 @@ Errors errors_at(const Indices& units, const Analysis& a, const ModelComparison&
     const int discrepancy = preferred_discrepancy(comparison, decision.marginalised, causes);
     const auto [known, is_new] = noise.try_emplace(discrepancy);
     if (is_new) known->second = discrepancy_noise(a.system, marginalised, discrepancy);
-    return ErrorsWith{left(own, causes, nullptr), left(marginalised, causes, known->second.get())};
+    return ErrorsWith{left(own, causes, discrepancy_noise(a.system, own, -1)),
+                      left(marginalised, causes, known->second)};
   };
   return {{with(without_slips(a, marginalised), {}), with(marginalised, decision.regressors),
            with(marginalised, a.decision.regressors)}};
@@ -157,7 +158,7 @@ HeldOutBlocks held_out_blocks(const ObservationSet& session) {
 MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& marginalised) {
   Flags outliers = marginalised.outliers;
   reject_slips(a, outliers);
-  return marginalise_rows(a.system, outliers);
+  return marginalise(a.system, outliers);
 }
 
 ExpectedImprovement expected_improvement(const Analysis& a) {

@@ -30,21 +30,15 @@ void reject(const OutlierGroup& group, Rejected& unit) {
 
 std::vector<Rejected> rejected_units(const RegressorSystem& system, const Flags& rejected) {
   std::vector<Rejected> units(system.units.size());
-  if (system.groups.empty()) {
-    for (std::size_t u = 0; u < units.size(); ++u) units[u].whole = rejected[u];
-    return units;
-  }
   for (std::size_t k = 0; k < system.groups.size(); ++k) {
-    if (!rejected[k]) continue;
-    const auto row = as_size(system.groups[k].first_row);
-    reject(system.groups[k], units[as_size(system.unit_of_row[row])]);
+    if (rejected[k]) reject(system.groups[k], units[system.unit_of(system.groups[k])]);
   }
   return units;
 }
 
 }  // namespace
 
-KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) {
+KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) : all_(system.e.size()) {
   const std::vector<Rejected> of_unit = rejected_units(system, rejected);
   for (Index row = 0; row < system.e.size(); ++row) {
     const int number = system.unit_of_row[index(row)];
@@ -75,28 +69,6 @@ Rows KeptRows::positions(const Indices& units) const {
     for (Index k = 0; k < unit.rows; ++k) result.push_back(unit.at + k);
   }
   return result;
-}
-
-VectorXd KeptRows::operator()(const VectorXd& all) const {
-  VectorXd kept = all(rows_);
-  for (const Unit& unit : units_) {
-    if (unit.across) kept(unit.at) = *unit.across * all.segment<2>(rows_[index(unit.at)]);
-  }
-  return kept;
-}
-
-MatrixXd KeptRows::of(const Eigen::Ref<const MatrixXd>& all) const {
-  if (size() == all.rows()) return all;
-  MatrixXd kept(size(), all.cols());
-  for (Index column = 0; column < all.cols(); ++column) {
-    const auto from = all.col(column);
-    for (Index k = 0; k < kept.rows(); ++k) kept(k, column) = from[rows_[index(k)]];
-    for (const Unit& unit : units_) {
-      if (unit.across)
-        kept(unit.at, column) = *unit.across * from.segment<2>(rows_[index(unit.at)]);
-    }
-  }
-  return kept;
 }
 
 }  // namespace chaintrue::grid::diagnosis

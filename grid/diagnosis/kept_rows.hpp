@@ -8,7 +8,7 @@
 /// \code
 ///   const KeptRows kept(system, rejected);
 ///   const Eigen::VectorXd e = kept(system.e);
-///   const Eigen::MatrixXd a = kept.of(system.by_setting);
+///   const Eigen::MatrixXd a = kept(system.by_setting);
 /// \endcode
 #pragma once
 
@@ -46,8 +46,28 @@ class KeptRows {
   /// Positions of the rows that belong to these units.
   Rows positions(const Indices& units) const;
 
-  VectorXd operator()(const VectorXd& all) const;
-  MatrixXd of(const Eigen::Ref<const MatrixXd>& all) const;
+  /// P all, of a vector or a matrix.
+  template <class M>
+  linear::Like<M> operator()(const M& all) const {
+    linear::Like<M> kept = all(rows_, Eigen::all);
+    for (const Unit& unit : units_) {
+      if (unit.across)
+        kept.row(unit.at) = *unit.across * all.template middleRows<2>(rows_[index(unit.at)]);
+    }
+    return kept;
+  }
+  /// P' kept: all rows, zero where none is kept.
+  template <class M>
+  linear::Like<M> spread(const M& kept) const {
+    linear::Like<M> all = linear::Like<M>::Zero(all_, kept.cols());
+    all(rows_, Eigen::all) = kept;
+    for (const Unit& unit : units_) {
+      if (unit.across)
+        all.template middleRows<2>(rows_[index(unit.at)]) =
+            unit.across->transpose() * kept.row(unit.at);
+    }
+    return all;
+  }
   /// The kept part of a block of a unit's rows.
   static MatrixXd of_unit(const Unit& unit, const MatrixXd& block) {
     return unit.across ? MatrixXd(*unit.across * block) : block;
@@ -55,6 +75,7 @@ class KeptRows {
 
  private:
   static std::size_t index(Index row) { return as_size(row); }
+  Index all_ = 0;
   Rows rows_;
   std::vector<Unit> units_;
 };

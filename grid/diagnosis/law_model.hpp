@@ -37,7 +37,7 @@ class LawModel {
       columns_.conservativeResize(Eigen::NoChange, columns_.cols() + law->cols());
       columns_.rightCols(law->cols()) = *law;
     }
-    columns_ = marginalised.kept.of(columns_);
+    columns_ = marginalised.kept(columns_);
     const MatrixXd own = marginalised.root.solve(columns_);
     // Amplitudes at the usual strength.
     sigmas_ = kUsualSignalToNoise / own.colwise().norm().transpose().array().max(1e-12);
@@ -68,7 +68,7 @@ class LawModel {
   Alternative expected_of(const RegressorSystem& next, const MatrixXd& columns) const {
     const Index settings = system_.by_setting.cols();
     MatrixXd here(columns_.rows(), settings + columns.cols());
-    here << linear::scaled_columns(marginalised_.kept.of(system_.by_setting), system_.sigma),
+    here << linear::scaled_columns(marginalised_.kept(system_.by_setting), system_.sigma),
         columns_;
     MatrixXd there(next.by_setting.rows(), here.cols());
     there << linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma),

@@ -41,8 +41,7 @@ class LawSystem {
   /// `number` of one of the comparison's marginalised systems; `sets` of the system's regressors.
   LawSystem(const Analysis& a, std::size_t number, const std::vector<RegressorSet>& sets)
       : own_(a.system),
-        marginalised_(
-            marginalise_rows(a.system, a.comparison.marginalised_systems[number].outliers)),
+        marginalised_(marginalise(a.system, a.comparison.marginalised_systems[number].outliers)),
         noise_(a.system.noise_dof, marginalised_.kept.size()),
         basis_(own_, marginalised_, numbers_below(family().kernels.size())) {
     own_.g = {};
@@ -56,7 +55,7 @@ class LawSystem {
         own_.regressors.push_back(a.system.regressor(k));
       }
     }
-    causes_ = a.comparison.marginalised_systems[number].g.dense(all);
+    causes_ = reduced(marginalised_, a.system.g.dense(all));
     take_columns(MatrixXd(causes_.rows(), 0));
   }
 
@@ -80,7 +79,7 @@ class LawSystem {
       const MatrixXd own = law_columns(own_, *curve, at);
       laws.rightCols(own.cols()) = own;
     }
-    take_columns(marginalised_.root.solve(marginalised_.kept.of(laws)));
+    take_columns(reduced(marginalised_, laws));
     return of_point;
   }
 
@@ -166,15 +165,15 @@ class LawSystem {
   void take_columns(const MatrixXd& laws) {
     MatrixXd g(laws.rows(), causes_.cols() + laws.cols());
     g << causes_, laws;
-    marginalised_.g = RegressorColumns(std::move(g));
     Regressor law;
     law.lowest = kMinusInfinity;
     law.highest = kInfinity;
-    own_.regressors.resize(as_size(marginalised_.g.cols()), law);
+    own_.regressors.resize(as_size(g.cols()), law);
     given_.clear();
     discrepancy_ = -1;
     basis_.forget();
-    plain_ = normal_equations(own_, marginalised_, numbers_below<int>(own_.regressors.size()));
+    plain_ = normal_equations(own_.regressors, marginalised_,
+                              numbers_below<int>(own_.regressors.size()), g);
   }
 
   /// Columns in a context: of its causes and of some laws.

@@ -42,6 +42,10 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
   return a.cause.side != b.cause.side && !joint(a.cause.side) && !joint(b.cause.side);
 }
 
+double score_alone(const Regressor& regressor, double c, double square) {
+  return regressor.fixed ? 2.0 * c - square : c * c / square;
+}
+
 ModelCollector::ModelCollector(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised, std::size_t number,
                                const ComparisonOptions& options)

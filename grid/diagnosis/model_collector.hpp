@@ -18,6 +18,8 @@ struct WeighedSet {
 /// Whether two regressors may act together: a cause acts at one place, an effect on both chains
 /// excludes the same on one of them, and one effect may set in at one visit of one chain.
 bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
+/// The reduction of e'e by one column, given its square and its inner product with e.
+double score_alone(const Regressor& regressor, double c, double square);
 class ModelCollector {
  public:
   /// `number` is the marginalised system's in its comparison; the references must outlive this.

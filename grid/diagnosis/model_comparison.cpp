@@ -28,12 +28,10 @@ double prior_of_count(std::size_t causes, double odds) {
 std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system, const Flags& excluded,
                                            const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
-  const NoiseDensity noise(system.noise_dof, marginalised.kept.size());
-  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e);
   std::vector<RegressorSet> hypotheses = {{}};
-  for (std::size_t k = 0; k < scores.causes.size(); ++k) {
-    if (options.given_cause && scores.causes[k] != *options.given_cause) continue;
-    if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
+  for (const CauseScore& own : single_scores(system, marginalised, marginalised.e)) {
+    if (options.given_cause && own.cause != *options.given_cause) continue;
+    if (own.best_regressor >= 0) hypotheses.push_back({own.best_regressor});
   }
   append_all(hypotheses, options.hypotheses);
   return hypotheses;
@@ -89,45 +87,42 @@ double log_odds_of_another(const RegressorSystem& system, const RegressorSet& se
          std::log(1.0 + as_double(lasting)) - std::log(system.prior.shares);
 }
 
-SingleScores single_scores(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                           const NoiseDensity& noise, const VectorXd& e) {
-  SingleScores scores;
-  const double ee = e.squaredNorm();
+std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, const VectorXd& c,
+                                      const VectorXd& square, double ee,
+                                      const NoiseDensity& noise) {
+  std::vector<CauseScore> scores;
   const double nothing = noise.log_density(ee);
-  const VectorXd c = marginalised.g.transpose_times(e);
-  const VectorXd square = marginalised.g.squared_norms();
-  std::vector<std::vector<double>> terms;
   double best = kMinusInfinity;  // of the current cause
   NormalEquations equations;
-  equations.columns = {0};
   equations.ee = ee;
-  equations.ge.resize(1);
-  equations.gg.resize(1, 1);
   const std::array<Index, 1> first = {0};
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-    const Regressor& regressor = system.regressors[k];
-    if (scores.causes.empty() || scores.causes.back() != regressor.cause) {
-      scores.causes.push_back(regressor.cause);
-      scores.best_regressor.push_back(-1);
-      terms.emplace_back();
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    const Regressor& own = regressors[k];
+    if (scores.empty() || scores.back().cause != own.cause) {
+      scores.push_back({own.cause});
       best = kMinusInfinity;
     }
     const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
-    equations.ge(0) = c(at);
-    equations.gg(0, 0) = square(at);
-    equations.prior_square = equations.gg.diagonal();
-    const std::vector<Regressor> one = {regressor};
+    equations.columns = {static_cast<int>(k)};
+    equations.ge = c.segment<1>(at);
+    equations.gg = equations.prior_square = square.segment<1>(at);
     const double factor =
-        set_evidence(equations, one, first, noise).log_evidence - nothing + regressor.log_prior;
-    terms.back().push_back(factor);
+        set_evidence(equations, regressors, first, noise).log_evidence - nothing + own.log_prior;
+    scores.back().log_factor = log_sum(scores.back().log_factor, factor);
     if (factor > best) {
       best = factor;
-      scores.best_regressor.back() = static_cast<int>(k);
+      scores.back().best_regressor = static_cast<int>(k);
     }
   }
-  for (const auto& places : terms) scores.log_factor.push_back(log_sum(places));
   return scores;
+}
+
+std::vector<CauseScore> single_scores(const RegressorSystem& system,
+                                      const MarginalisedSystem& marginalised, const VectorXd& e) {
+  return single_scores(system.regressors, with_regressors(system, marginalised, e),
+                       squared_lengths(system, marginalised), e.squaredNorm(),
+                       NoiseDensity(system.noise_dof, marginalised.kept.size()));
 }
 
 namespace {
@@ -136,13 +131,12 @@ namespace {
 /// again without one of them.
 std::vector<Flags> sets_without_links(const RegressorSystem& system, const Flags& excluded,
                                       const ModelComparison& comparison) {
-  // A rejected direction is not a whole reading that is off by links.
-  if (!system.groups.empty()) return {};
   const MarginalisedSystem& marginalised = comparison.best_system();
   const Estimate fitted = estimate(system, marginalised, comparison.best().regressors, -1);
   std::vector<Flags> result;
   for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
-    if (!marginalised.outliers[i] || excluded[i]) continue;
+    // A rejected direction is not a whole reading that is off by links.
+    if (!marginalised.outliers[i] || excluded[i] || system.groups[i].direction) continue;
     const SystemUnit& unit = system.units[i];
     bool links = false;
     for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {

@@ -14,6 +14,7 @@
 
 #include "grid/diagnosis/evidence.hpp"
 #include "grid/eigen.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -91,13 +92,18 @@ double log_prior(const RegressorSystem& system, const RegressorSet& set, bool di
 double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set,
                            bool discrepancy);
 
-/// Log Bayes factor of one cause against none, averaged over its places, by position in `causes`.
-struct SingleScores {
-  std::vector<CauseId> causes;
-  std::vector<double> log_factor;
-  RegressorSet best_regressor;
+/// One cause against none, averaged over its places.
+struct CauseScore {
+  CauseId cause;
+  double log_factor = kMinusInfinity;  ///< log Bayes factor
+  int best_regressor = -1;             ///< -1: it shows nowhere
 };
-SingleScores single_scores(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                           const NoiseDensity& noise, const VectorXd& e);
+/// From the inner products of every regressor's column with the residual, and their squares; `ee`: the
+/// residual's square.
+std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, const VectorXd& c,
+                                      const VectorXd& square, double ee, const NoiseDensity& noise);
+/// Those of a residual in a marginalised system.
+std::vector<CauseScore> single_scores(const RegressorSystem& system,
+                                      const MarginalisedSystem& marginalised, const VectorXd& e);
 
 }  // namespace chaintrue::grid::diagnosis

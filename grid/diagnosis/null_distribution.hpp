@@ -22,8 +22,10 @@ class SingleScore {
  public:
   SingleScore(const RegressorSystem& system, const MarginalisedSystem& marginalised,
               double noise_dof)
-      : marginalised_(marginalised), dof_(noise_dof) {
-    square_ = marginalised.g.squared_norms();
+      : system_(system),
+        marginalised_(marginalised),
+        dof_(noise_dof),
+        square_(squared_lengths(system, marginalised)) {
     constant_.resize(square_.size());
     for (Index k = 0; k < square_.size(); ++k) {
       const Regressor& d = system.regressor(k);
@@ -34,17 +36,6 @@ class SingleScore {
       if (!d.fixed) constant_(k) -= std::log(kUsualSignalToNoise) + 0.5 * std::log1p(precision());
       if (sign_.back() != 0) constant_(k) += std::log(2.0);
     }
-  }
-
-  /// The largest of all; `e` like MarginalisedSystem::e.
-  double largest(const VectorXd& e) const {
-    const VectorXd c = marginalised_.g.transpose_times(e);
-    const double ee = e.squaredNorm();
-    const auto n = as_double(e.size());
-    double result = kNoScore;
-    for (Index k = 0; k < c.size(); ++k)
-      result = std::max(result, score(k, square_(k), c(k), ee, n));
-    return result;
   }
 
   /// The largest over the columns of normal equations with this many rows.
@@ -58,10 +49,12 @@ class SingleScore {
     return result;
   }
 
-  /// For each column of `e`.
+  /// The largest of all for each column of `e`, which are like MarginalisedSystem::e.
   VectorXd largest(const MatrixXd& e) const {
-    const RegressorColumns& g = marginalised_.g;
-    const MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
+    // Thousands of draws: only products with distinct columns are stored.
+    const RegressorColumns& g = system_.g;
+    const MatrixXd rows = marginalised_.kept.spread(marginalised_.root.solve(e));
+    const MatrixXd c = linear::product(linear::transposed(g.distinct()), rows);
     const auto n = as_double(e.rows());
     VectorXd result = VectorXd::Constant(e.cols(), kNoScore);
     for (Index draw = 0; draw < e.cols(); ++draw) {
@@ -101,6 +94,7 @@ class SingleScore {
     return drop / (dof_ + ee);
   }
 
+  const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   double dof_;
   VectorXd square_;

@@ -85,7 +85,7 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& ag
     const NumberedUnit& unit = a.session.units[u];
     if (a.session.parts[unit.part].reads_chains() && again[unit.index]) left_out[u] = true;
   }
-  MarginalisedSystem own = marginalise_rows(system, left_out);
+  MarginalisedSystem own = marginalise(system, left_out);
   own.discrepancy_trace = compared.discrepancy_trace;  // the discrepancy keeps its strength
   const MatrixXd pattern = discrepancy_columns(system, own, model.discrepancy);
   MatrixXd columns(pattern.rows(), pattern.cols() + std::ssize(model.regressors));
@@ -117,9 +117,14 @@ std::vector<GivenModel> leading_models(const Analysis& a, const Flags& again) {
   return result;
 }
 
-/// Columns of causes that depend on the order and have only a size, in the rows of the analysis.
-RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
-  RegressorSystem result;
+/// Causes that depend on the order and have only a size.
+struct OrderColumns {
+  std::vector<Regressor> regressors;
+  MatrixXd columns;  ///< in the rows of the analysis
+};
+
+OrderColumns order_columns(const Analysis& a, const Measured& ordered) {
+  OrderColumns result;
   auto set = observations_of(ordered);
   if (!set) return result;
   auto system = linearise(*set, a.state);
@@ -133,28 +138,29 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
       causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
-  const MatrixXd columns = system->g.dense();
-  MatrixXd moved = MatrixXd::Zero(a.session.rows, columns.cols());
+  const MatrixXd columns = system->g.dense(numbers_below<int>(system->g.cols()));
+  result.columns.setZero(a.session.rows, columns.cols());
   for (const NumberedUnit& unit : a.session.units) {
     const NumberedUnit& own = *find_where(set->units, [&](const NumberedUnit& other) {
       return other.part == unit.part && other.index == unit.index;
     });
-    moved.middleRows(unit.first_row, unit.rows) = columns.middleRows(own.first_row, own.rows);
+    result.columns.middleRows(unit.first_row, unit.rows) =
+        columns.middleRows(own.first_row, own.rows);
   }
-  result.g = std::move(moved);
   result.regressors = std::move(system->regressors);
   return result;
 }
 
 /// log sum_c odds_M B(c | M, o)
-double log_order_factor(const RegressorSystem& columns, const GivenModel& model, double noise_dof) {
-  MarginalisedSystem reduced;
-  const MarginalisedSystem& own = model.marginalised;
-  reduced.g = columns.g.mapped(
-      [&](const auto& all) { return model.noise.half_solve(own.root.solve(own.kept.of(all))); });
-  const NoiseDensity noise(noise_dof, own.kept.size());
-  const SingleScores scores = single_scores(columns, reduced, noise, model.e);
-  return log_sum(scores.log_factor) + model.log_odds;
+double log_order_factor(const OrderColumns& order, const GivenModel& model, double noise_dof) {
+  const MatrixXd g = model.noise.half_solve(reduced(model.marginalised, order.columns));
+  double sum = kMinusInfinity;
+  for (const CauseScore& own :
+       single_scores(order.regressors, linear::product(linear::transposed(g), model.e),
+                     g.colwise().squaredNorm(), model.e.squaredNorm(),
+                     NoiseDensity(noise_dof, model.marginalised.kept.size())))
+    sum = log_sum(sum, own.log_factor);
+  return sum + model.log_odds;
 }
 
 /// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have. \pre one file.
@@ -168,7 +174,7 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
   for (std::size_t k = 0; k < orders.size(); ++k) {
     const auto ordered = visited_in(measured, orders[k]);
     if (!ordered) continue;
-    const RegressorSystem columns = order_columns(a, *ordered);
+    const OrderColumns columns = order_columns(a, *ordered);
     if (columns.regressors.empty()) continue;
     std::vector<double> terms;
     for (const GivenModel& model : models)

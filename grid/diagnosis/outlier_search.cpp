@@ -31,13 +31,17 @@ struct FreeGroup {
   std::optional<Vector2d> direction;
 
   Index directions() const { return direction ? 1 : rows; }
+  /// D, rows x directions.
+  MatrixXd basis() const {
+    return direction ? MatrixXd(*direction) : MatrixXd(MatrixXd::Identity(rows, rows));
+  }
 };
 
 /// The data under one hypothesis: precision P of the rows, and P times the residual.
 ///
-/// P is that of no hypothesis minus T T', with a column of T for each free regressor and each
-/// shift. Of P only the units' own blocks are kept, and a group's columns are made when it is
-/// rejected: with hundreds of points nothing of rows x rows is ever made.
+/// P is 1 - T T', with columns of T for the settings, for each free regressor and for each shift. Of P
+/// only the units' own blocks are kept, and a group's columns are made when it is rejected: with
+/// hundreds of points nothing of rows x rows is ever made.
 class MeanShifts {
   auto taken() const { return taken_.leftCols(count_); }
 
@@ -50,26 +54,27 @@ class MeanShifts {
         quadratic_(e_.squaredNorm()),
         log_det_(marginalised.log_det),
         own_(MatrixXd::Zero(2, e_.size())),
-        taken_(e_.size(), 0) {
+        taken_(root_->explained()),
+        count_(taken_.cols()) {
     for (const FreeGroup& group : groups) {
       if (!blocks_.empty() && blocks_.back().first == group.at) continue;
+      const MatrixXd own = taken().middleRows(group.at, group.rows);
       own_.block(0, group.at, group.rows, group.rows) =
-          root_->precision_block(group.at, group.rows, group.at, group.rows);
+          MatrixXd::Identity(group.rows, group.rows) - own * own.transpose();
       blocks_.emplace_back(group.at, group.rows);
     }
   }
 
   /// Removes one regressor of known size. Call before any other.
-  void subtract(const VectorXd& g) {
-    e_ -= g;
+  void subtract(const VectorXd& reduced_column) {
+    e_ -= reduced_column;
     u_ = root_->solve(e_);
     quadratic_ = e_.squaredNorm();
   }
 
   /// Removes one regressor of free size, with the prior precision of its coefficient.
-  void free(const VectorXd& reduced_column, double prior) {
-    const VectorXd g = root_->times(reduced_column);
-    VectorXd pg = root_->solve(reduced_column);
+  void free(const VectorXd& g, double prior) {
+    VectorXd pg = g;
     linear::add_product(pg, -1.0, taken(), linear::product(linear::transposed(taken()), g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
@@ -86,58 +91,36 @@ class MeanShifts {
 
   /// (1): the drop of the quadratic form without the group.
   double drop_without(const FreeGroup& group) const {
-    if (group.direction) {
-      const Vector2d& d = *group.direction;
-      return std::pow(d.dot(u_.segment<2>(group.at)), 2) / precision_along(group);
-    }
-    return group.rows == 2 ? drop_without_rows<2>(group.at) : drop_without_rows<1>(group.at);
+    if (group.rows == 1) return u_[group.at] * u_[group.at] / own_(0, group.at);
+    const Vector2d u = u_.segment<2>(group.at);
+    if (group.direction) return std::pow(group.direction->dot(u), 2) / precision_along(group);
+    const Matrix2d block = own_.block<2, 2>(0, group.at);
+    return u.dot(block.inverse() * u);
   }
 
   void reject(const FreeGroup& group, double drop) {
+    const MatrixXd d = group.basis();
+    const MatrixXd own = taken().middleRows(group.at, group.rows);
+    MatrixXd columns = MatrixXd::Zero(u_.size(), d.cols());  // P D
+    columns.middleRows(group.at, group.rows) = d;
+    linear::add_product(columns, -1.0, taken(), linear::product(linear::transposed(own), d));
+    const linear::Cholesky block(d.transpose() * columns.middleRows(group.at, group.rows));
+    const VectorXd along = d.transpose() * u_.segment(group.at, group.rows);
     quadratic_ -= drop;
-    if (group.direction) {
-      reject_direction(group);
-    } else {
-      reject_rows(group.at, group.rows);
-    }
+    linear::add_product(u_, -1.0, columns, block.solve(along));
+    log_det_ += block.log_det();
+    const MatrixXd scaled = block.half_solve(MatrixXd(columns.transpose()));
+    for (const auto& row : scaled.rowwise()) take(row.transpose());
   }
 
   double quadratic() const { return std::max(quadratic_, 0.0); }
   double log_det() const { return log_det_; }
 
  private:
-  template <int kRows>
-  [[nodiscard]] double drop_without_rows(Index at) const {
-    const Eigen::Matrix<double, kRows, kRows> block = own_.template block<kRows, kRows>(0, at);
-    const Eigen::Matrix<double, kRows, 1> u = u_.template segment<kRows>(at);
-    return u.dot(block.inverse() * u);
-  }
-
   /// D' P D.
   double precision_along(const FreeGroup& group) const {
     const Matrix2d block = own_.block<2, 2>(0, group.at);
     return group.direction->dot(block * *group.direction);
-  }
-
-  void reject_rows(Index at, Index rows) {
-    const linear::Cholesky block(own_.block(0, at, rows, rows));
-    MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
-    linear::add_product(columns, -1.0, taken(), linear::transposed(taken().middleRows(at, rows)));
-    linear::add_product(u_, -1.0, columns, block.solve(u_.segment(at, rows)));
-    log_det_ += block.log_det();
-    const MatrixXd scaled = block.half_solve(columns.transpose());
-    for (Index k = 0; k < rows; ++k) take(scaled.row(k).transpose());
-  }
-
-  void reject_direction(const FreeGroup& group) {
-    const Vector2d& d = *group.direction;
-    const double own = precision_along(group);
-    VectorXd column = linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
-    linear::add_product(column, -1.0, taken(),
-                        linear::product(linear::transposed(taken().middleRows(group.at, 2)), d));
-    u_ -= column * (d.dot(u_.segment<2>(group.at)) / own);
-    log_det_ += std::log(own);
-    take(column / std::sqrt(own));
   }
 
   void take(const VectorXd& column) {
@@ -165,12 +148,13 @@ class MeanShifts {
 MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
                  const RegressorSystem& system, const RegressorSet& set) {
   for (const int k : set) {
-    if (system.regressor(k).fixed) shifts.subtract(marginalised.g.col(k));
+    if (system.regressor(k).fixed) shifts.subtract(reduced(marginalised, system.g.col(k)));
   }
   for (const int k : set) {
     if (system.regressor(k).fixed) continue;
-    const VectorXd g = marginalised.g.col(k);
-    shifts.free(g, g.squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise));
+    const VectorXd g = marginalised.kept(system.g.col(k));
+    const double square = marginalised.root.solve(g).squaredNorm();
+    shifts.free(g, square / (kWideSignalToNoise * kWideSignalToNoise));
   }
   return shifts;
 }
@@ -273,22 +257,13 @@ FoundSet search(MeanShifts shifts, const RegressorSystem& system,
   return best;
 }
 
-/// The rows of each unit if the system has no groups: a misread point spoils both.
-std::vector<OutlierGroup> groups_of(const RegressorSystem& system) {
-  if (!system.groups.empty()) return system.groups;
-  std::vector<OutlierGroup> groups;
-  for (const SystemUnit& unit : system.units) groups.push_back({unit.first_row, unit.rows});
-  return groups;
-}
-
 }  // namespace
 
 std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excluded,
                                 const std::vector<RegressorSet>& hypotheses) {
   const MarginalisedSystem marginalised = marginalise(system, excluded);
-  const std::vector<OutlierGroup> groups = groups_of(system);
-  const std::vector<FreeGroup> free = free_groups(marginalised, groups);
-  Flags beforehand(groups.size(), true);
+  const std::vector<FreeGroup> free = free_groups(marginalised, system.groups);
+  Flags beforehand(system.groups.size(), true);
   for (const FreeGroup& group : free) beforehand[group.group] = false;
   const MeanShifts nothing(marginalised, free);
   std::vector<FoundSet> found;

@@ -35,11 +35,6 @@ class RegressorColumns {
  public:
   RegressorColumns() = default;
   explicit RegressorColumns(Index rows) : distinct_(rows, 0) {}
-  /// Each column separately.
-  RegressorColumns(MatrixXd columns)  // NOLINT(google-explicit-constructor): it is a matrix
-      : distinct_(std::move(columns)), count_(distinct_.cols()) {
-    for (Index k = 0; k < count_; ++k) of_.push_back({k, 1.0});
-  }
 
   /// factor times this.
   void add(const VectorXd& column, double factor = 1.0) {
@@ -65,20 +60,11 @@ class RegressorColumns {
 
   /// Column k is factor(k) times column index(k) of these.
   auto distinct() const { return distinct_.leftCols(count_); }
+  Index index(Index k) const { return of_[as_size(k)].index; }
+  double factor(Index k) const { return of_[as_size(k)].factor; }
   Index rows() const { return distinct_.rows(); }
   Index cols() const { return std::ssize(of_); }
   auto col(Index k) const { return distinct_.col(index(k)) * factor(k); }
-  /// Some rows of a column.
-  VectorXd column(const Rows& rows, Index k) const {
-    return distinct_.col(index(k))(rows) * factor(k);
-  }
-
-  /// rows() x cols()
-  MatrixXd dense() const {
-    MatrixXd result(rows(), cols());
-    for (Index k = 0; k < cols(); ++k) result.col(k) = col(k);
-    return result;
-  }
 
   /// rows() x columns.size()
   MatrixXd dense(const RegressorSet& columns) const {
@@ -101,34 +87,26 @@ class RegressorColumns {
     return result;
   }
 
-  /// Applies a linear map to all columns: `map` takes and returns a matrix of as many columns.
-  template <typename Map>
-  RegressorColumns mapped(const Map& map) const {
-    RegressorColumns result;
-    result.distinct_ = map(distinct_.leftCols(count_));
-    result.count_ = count_;
-    result.of_ = of_;
+  /// cols() x columns of m: inner products of every column with those of a matrix, or with a vector.
+  template <class M>
+  linear::Like<M> transpose_times(const M& m) const {
+    const linear::Like<M> products = linear::product(linear::transposed(distinct()), m);
+    linear::Like<M> result(cols(), m.cols());
+    for (Index column = 0; column < m.cols(); ++column) {
+      for (Index k = 0; k < cols(); ++k) result(k, column) = factor(k) * products(index(k), column);
+    }
     return result;
   }
 
-  /// cols(): inner products of every column with a vector.
-  VectorXd transpose_times(const VectorXd& vector) const {
-    const VectorXd products = linear::product(linear::transposed(distinct()), vector);
-    VectorXd result(cols());
-    for (Index k = 0; k < cols(); ++k) result(k) = factor(k) * products(index(k));
-    return result;
-  }
-
-  /// cols()
-  VectorXd squared_norms() const {
-    const VectorXd squares = distinct().colwise().squaredNorm();
+  /// cols(): squared lengths of a map of every column.
+  template <class Map>
+  VectorXd squared_norms(const Map& map) const {
+    VectorXd squares(count_);
+    for (Index k = 0; k < count_; ++k) squares(k) = map(VectorXd(distinct_.col(k))).squaredNorm();
     VectorXd result(cols());
     for (Index k = 0; k < cols(); ++k) result(k) = factor(k) * factor(k) * squares(index(k));
     return result;
   }
-
-  Index index(Index k) const { return of_[as_size(k)].index; }
-  double factor(Index k) const { return of_[as_size(k)].factor; }
 
  private:
   struct Multiple {

@@ -27,6 +27,7 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   }
   RegressorSystem system;
   static_cast<estimation::LinearisedSystem&>(system) = *std::move(line);
+  for (const SystemUnit& unit : system.units) system.groups.push_back({unit.first_row, unit.rows});
   system.setting = setting_values(set, state);
   system.expected_change = set.stated_value - system.setting;
   system.sigma = set.stated_sigma.unaryExpr(

@@ -111,15 +111,18 @@ struct RegressorSystem : estimation::LinearisedSystem {
   VectorXd sigma;            ///< q, one sigma as stated
   CausePrior prior;
   double noise_dof = 15.0;  ///< degrees of freedom of the noise
-  /// The readings that one slip spoils; empty: each unit is a group.
+  /// The readings that one slip spoils; of linearise() each unit.
   std::vector<OutlierGroup> groups;
+  std::size_t unit_of(const OutlierGroup& group) const {
+    return as_size(unit_of_row[as_size(group.first_row)]);
+  }
   OutlierLimits limits;
   const DiscrepancyFamily* discrepancies = &chain_discrepancies();
 };
 
 /// A flag for each outlier group, all false.
 inline Flags nothing_rejected(const RegressorSystem& system) {
-  return Flags(system.groups.empty() ? system.units.size() : system.groups.size(), false);
+  return Flags(system.groups.size(), false);
 }
 
 /// Without regressors. Fails with the first place that the machine cannot reach.

@@ -16,29 +16,22 @@ constexpr double kConvergedSettingMm = 1e-3;  // of a setting
 constexpr int kSteps = 5;                     // of the search for a size
 constexpr double kLongestStep = 0.5;          // of a size
 
-/// Distance of the places next to a regressor's own.
-struct Reach {
-  double below = 0.0;
-  double above = 0.0;
-};
-
 bool has_continuous_place(const Regressor& regressor) {
   const auto& parameters = regressor.cause.effect->parameters;
   return parameters.size() > 1 && !parameters.back().integer;
 }
 
-Reach reach(const RegressorSystem& system, const Regressor& own) {
-  Reach result;
+/// Distance of the farther one of the two places next to a regressor's own: phases are cyclic.
+double reach(const RegressorSystem& system, const Regressor& own) {
+  double below = 0.0;
+  double above = 0.0;
   for (const Regressor& d : system.regressors) {
     if (d.cause != own.cause) continue;
     const double step = d.values.back() - own.values.back();
-    if (step < 0.0 && (result.below == 0.0 || -step < result.below)) result.below = -step;
-    if (step > 0.0 && (result.above == 0.0 || step < result.above)) result.above = step;
+    if (step < 0.0 && (below == 0.0 || -step < below)) below = -step;
+    if (step > 0.0 && (above == 0.0 || step < above)) above = step;
   }
-  // Phases are cyclic.
-  result.below = std::max(result.below, result.above);
-  result.above = result.below;
-  return result;
+  return std::max(below, above);
 }
 
 class Round {
@@ -46,8 +39,9 @@ class Round {
   Round(const ObservationSet& session, const State& state, const RegressorSystem& system,
         MarginalisedSystem marginalised, int discrepancy)
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
-    estimate_ = diagnosis::estimate(system, marginalised_,
-                                    numbers_below<int>(system.regressors.size()), discrepancy);
+    const auto all = numbers_below<int>(system.regressors.size());
+    g_ = reduced(marginalised_, system.g.dense(all));
+    estimate_ = diagnosis::estimate(system, marginalised_, all, discrepancy);
   }
   const Estimate& estimate() const { return estimate_; }
 
@@ -76,10 +70,10 @@ class Round {
   }
 
   /// The place at which a cause explains most, given the others.
-  double place(std::size_t which, const Reach& reach) const {
+  double place(std::size_t which, double reach) const {
     const Regressor& own = system_.regressors[which];
-    double low = own.values.back() - reach.below;
-    double high = own.values.back() + reach.above;
+    double low = own.values.back() - reach;
+    double high = own.values.back() + reach;
     if (own.cause.effect->law != nullptr) {
       // A formula is known to be finite only between its bounds.
       const auto& bounds = own.cause.effect->parameters.back();
@@ -116,7 +110,7 @@ class Round {
     values.front() = size;
     const auto g = column(which, values);
     if (!g) return std::nullopt;
-    const auto own = marginalised_.g.col(as_index(which));
+    const auto own = g_.col(as_index(which));
     return own.dot(*g) / own.squaredNorm();
   }
 
@@ -129,9 +123,9 @@ class Round {
 
   /// What a regressor explains by its place, after projection on the others.
   std::function<double(double)> gain_given_others(std::size_t which) const {
-    MatrixXd others(marginalised_.e.size(), marginalised_.g.cols() - 1);
-    for (Index k = 0; k < others.cols(); ++k)
-      others.col(k) = marginalised_.g.col(k < as_index(which) ? k : k + 1);
+    auto all_others = numbers_below<Index>(g_.cols());
+    std::erase(all_others, as_index(which));
+    const MatrixXd others = g_(Eigen::all, all_others);
     const auto without = [gram = linear::PivotedCholesky(linear::gram(others)),
                           others](VectorXd v) {
       if (others.cols() > 0) {
@@ -157,6 +151,7 @@ class Round {
   const State& state_;
   const RegressorSystem& system_;
   MarginalisedSystem marginalised_;
+  MatrixXd g_;  ///< the regressors' reduced columns
   Estimate estimate_;
 };
 
@@ -168,7 +163,7 @@ void relinearise(Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const int discrepancy = a.decision.discrepancy_left ? a.decision.best_discrepancy : -1;
   std::vector<Regressor> own;
-  std::vector<Reach> reaches;
+  std::vector<double> reaches;
   for (const int k : a.decision.regressors) {
     own.push_back(system.regressor(k));
     reaches.push_back(reach(system, own.back()));

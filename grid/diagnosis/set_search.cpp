@@ -15,11 +15,6 @@ constexpr double kLeastSquare = 1e-8;
 /// This many leading causes are projected out in turn.
 constexpr std::size_t kTakenOut = 3;
 
-/// The reduction of e'e by one column, given its square and its inner product with e.
-double score_alone(const Regressor& regressor, double c, double square) {
-  return regressor.fixed ? 2.0 * c - square : c * c / square;
-}
-
 /// Adds the places of each cause that explain most of `e`.
 void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& e,
               std::size_t of_a_cause, std::set<int>& chosen) {
@@ -48,7 +43,8 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
                                 const ComparisonOptions& options, std::size_t of_a_cause) {
   std::set<int> chosen;
-  const MatrixXd all = marginalised.g.dense();
+  const MatrixXd all =
+      reduced(marginalised, system.g.dense(numbers_below<int>(system.regressors.size())));
   add_best(system, all, marginalised.e, of_a_cause, chosen);
   std::vector<std::pair<double, int>> likeliest;
   for (const int k : chosen) {
@@ -134,15 +130,15 @@ RegressorSet SetSearch::columns() const {
   RegressorSet fixed;
   RegressorSet shifts;
   const auto count = static_cast<int>(system_.regressors.size());
-  const VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
-  const VectorXd square = marginalised_.g.squared_norms();
+  const VectorXd c = with_regressors(system_, marginalised_, marginalised_.e);
+  const VectorXd square = squared_lengths(system_, marginalised_);
   for (int k = 0; k < count; ++k) {
     const Regressor& d = system_.regressor(k);
     if (options_.given_cause && d.cause != *options_.given_cause) continue;
     if (!(square(k) > kLeastSquare)) continue;
     (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
   }
-  const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
+  const auto explained = [&](int k) { return score_alone(system_.regressor(k), c(k), square(k)); };
   keep_best(shifts, kKeptShifts, explained);
   RegressorSet likeliest = kept;
   append_all(kept, shifts);
@@ -151,14 +147,14 @@ RegressorSet SetSearch::columns() const {
     return kept;
   }
   keep_best(likeliest, 8, explained);
-  const RegressorColumns& g = marginalised_.g;
-  const MatrixXd cross = linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
+  const MatrixXd cross =
+      with_regressors(system_, marginalised_, reduced(marginalised_, system_.g.dense(likeliest)));
   std::vector<std::pair<double, int>> gains;
   for (const int k : fixed) {
-    double best = 2.0 * c(k) - square(k);
+    double best = explained(k);
     for (std::size_t l = 0; l < likeliest.size(); ++l) {
       const double ll = square(likeliest[l]);
-      const double x = g.factor(k) * cross(g.index(k), as_index(l));
+      const double x = cross(k, as_index(l));
       best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
     }
     gains.emplace_back(best, k);

@@ -172,7 +172,8 @@ TEST(OneEstimator, ConvergesFromACentimetreAway) {
     }
     belts::AnchorVector start = belts::anchors_of(fit->machine);
     start += (belts::AnchorVector() << 9.0, -11.0, -8.0, 10.0, 12.0).finished();
-    const auto estimate = estimation::estimate(belts::anchor_input(set.belts, counting, start));
+    const auto estimate = estimation::estimate(belts::anchor_input(
+        set.belts, {.state = {start, 0.0, {}}, .counting = counting, .residual_sigma_mm = 1.0}));
     ASSERT_TRUE(estimate) << estimate.error().sentence();
     EXPECT_TRUE(estimate->converged);
     for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
@@ -198,7 +199,9 @@ TEST(OneEstimator, RejectsPlacesWithARejectedReading) {
     ASSERT_TRUE(fit);
     const belts::Counting all(set.belts.points.size(), {true, true, true, true});
     estimation::EstimationInput input =
-        belts::anchor_input(set.belts, all, belts::anchors_of(fit->machine));
+        belts::anchor_input(set.belts, {.state = {belts::anchors_of(fit->machine), 0.0, {}},
+                                        .counting = all,
+                                        .residual_sigma_mm = 1.0});
     input.fixed_weights.reset();
     const auto estimate = estimation::estimate(input);
     ASSERT_TRUE(estimate && estimate->converged);

@@ -36,8 +36,7 @@ TEST(Settling, MeasuresATurnAtTheSheetsEdge) {
   grid.sheet = SheetUncertainty{20.0, 10.0};
   const Analysis a = analysis_of(grid);
   ASSERT_TRUE(a.converged);
-  auto again = linearise(a.session, a.state).value();
-  again.g = RegressorColumns(a.session.rows);
+  const auto again = linearise(a.session, a.state).value();
   const auto marginalised = marginalise(again, a.comparison.marginalised_systems.front().outliers);
   const Eigen::VectorXd change = estimate(again, marginalised, {}, -1).setting_change;
   const double edge_mm = 0.5 * a.session.stated.bed.width_mm;
