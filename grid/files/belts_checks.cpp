@@ -191,11 +191,12 @@ void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Pro
   checks.check_pulls();
 }
 
-void check_belt_distances(const MeasuredBelts& belts, Problems& problems) {
+void check_belt_distances(const MeasuredBelts& belts, const std::string& distances,
+                          Problems& problems) {
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
     const BeltDistance& distance = belts.distances[i];
     const auto place = [&](std::string_view end) {
-      return fmt::format("/distances/{}/{}", i, end);
+      return fmt::format("{}/{}/{}", distances, i, end);
     };
     const auto check = [&](const BeltEnd& end, std::string_view key) {
       const auto* index = std::get_if<std::size_t>(&end);

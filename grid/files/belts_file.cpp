@@ -55,19 +55,25 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
 
 std::vector<std::size_t> point_numbers_of(const std::string& text, const std::string& option,
                                           std::string_view what) {
-  return list_of_option(text, option,
-                        fmt::format("numbers of {}, counted from 1, as in 7,12", what),
-                        [](const std::string& part) -> std::optional<std::size_t> {
-                          return whole_number_of(part, 1, kMostNumbered);
-                        });
+  constexpr int kMost = 1000000;
+  std::vector<std::size_t> numbers;
+  for (const std::string& part : parts_at_commas(text)) {
+    const auto number = whole_number_of(part, 1, kMost);
+    if (!number) {
+      refuse("the command line", option, shortened(text),
+             fmt::format("numbers of {}, counted from 1, as in 7,12", what));
+    }
+    numbers.push_back(as_size(*number));
+  }
+  return numbers;
 }
 
 ReadBelts parse_belts(const std::string& text, const std::string& file,
                       const std::vector<std::size_t>& without) {
   Problems problems(file);
   ReadBelts read{read_document(belts_record(), text, problems), {}};
-  check_belt_distances(read.belts, problems);
   if (!without.empty()) {
+    check_belt_distances(read.belts, "/distances", problems);
     problems.throw_if_any();
     leave_out(without, read.belts, problems);
   }
@@ -80,6 +86,7 @@ ReadBelts parse_belts(const std::string& text, const std::string& file,
                           },
                           "/machine"};
   check_belt_points(read.belts, places, problems);
+  if (without.empty()) check_belt_distances(read.belts, "/distances", problems);
   problems.throw_if_any();
   check_belts_together(read.belts, places, BeltsUse::fit, problems);
   problems.throw_if_any();

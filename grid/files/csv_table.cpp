@@ -60,9 +60,11 @@ ColumnName column_name(std::string_view text) {
   return {std::move(name)};
 }
 
+constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
+
 /// The cell of a row in this column.
 struct CellOfColumn {
-  std::optional<std::size_t> index;
+  std::size_t index = kNoCell;
   double factor = 1.0;
 };
 
@@ -88,7 +90,8 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
                                : fmt::format("; \"{}\" is probably {}", name, meant);
       is_wrong = is_wrong || !meant.empty();
       unused.push_back(i);
-    } else if (CellOfColumn& place = index[as_size(known - names.begin())]; !place.index) {
+    } else if (CellOfColumn& place = index[as_size(known - names.begin())];
+               place.index == kNoCell) {
       const double of_column = columns[as_size(known - names.begin())].unit;
       place = {i, column.factor != 1.0 ? column.factor : of_column};
     } else {
@@ -96,9 +99,11 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
       remarks += fmt::format("; \"{}\" is there twice", name);
     }
   }
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    is_wrong = is_wrong || (columns[i].is_required && !index[i].index);
-  if (!is_wrong) {
+  bool missing = false;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    missing = missing || (columns[i].is_required && index[i].index == kNoCell);
+  }
+  if (!missing && !is_wrong) {
     for (const std::size_t i : unused) {
       if (!header[i].text.empty())
         problems.warn(header[i].place(), "the column \"{}\" is not used", header[i].text);
@@ -128,39 +133,26 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
   return {};
 }
 
-/// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
-/// problem is added if it is not a number or out of range.
-std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
-                                     const Range& range, Problems& problems) {
-  const auto bare = unit != 1.0 ? number_of(cell.text) : std::nullopt;
-  if (!bare) return checked_number(cell.text, cell.place(), name, range, problems);
-  if (range.holds(*bare * unit)) return *bare * unit;
-  problems.add(cell.place(), fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
-               ProblemKind::out_of_range, "{} ({})", range.expected(), name);
-  return std::nullopt;
-}
-
-CsvLine read_line(const CsvRow& row, const std::vector<CsvColumn>& columns,
-                  const std::vector<CellOfColumn>& index, Problems& problems) {
-  const std::size_t problems_before = problems.list().size();
-  CsvLine line;
+/// The values of a line, by column.
+std::vector<std::optional<double>> read_row(const CsvRow& row,
+                                            const std::vector<CsvColumn>& columns,
+                                            const std::vector<CellOfColumn>& index, CsvRow& cells,
+                                            Problems& problems) {
+  std::vector<std::optional<double>> values(columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    auto& value = line.values.emplace_back();
-    CsvCell& cell = line.cells.emplace_back(CsvCell{"", row.front().line, 1});
-    if (!index[c].index) continue;
+    if (index[c].index == kNoCell) continue;
     const CsvColumn& column = columns[c];
-    cell = row[*index[c].index];
+    cells[c] = row[index[c].index];
     if (column.is_text) continue;
-    if (stands_for_nothing(cell.text)) cell.text.clear();
-    if (!cell.text.empty()) {
-      value = number_in_unit(cell, index[c].factor, column.name, column.range, problems);
+    if (stands_for_nothing(cells[c].text)) cells[c].text.clear();
+    if (!cells[c].text.empty()) {
+      values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
     } else if (column.is_required && !column.may_be_blank) {
-      problems.add(cell.place(), "", ProblemKind::left_blank, "{} ({})", column.range.expected(),
-                   column.name);
+      problems.add(cells[c].place(), "", ProblemKind::left_blank, "{} ({})",
+                   column.range.expected(), column.name);
     }
   }
-  line.is_clean = problems.list().size() == problems_before;
-  return line;
+  return values;
 }
 
 /// Lines that end in a separator have one empty cell too many.
@@ -201,8 +193,18 @@ std::vector<std::string> csv_header(std::string_view text) {
   return names;
 }
 
-std::vector<CsvLine> read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
-                              Problems& problems) {
+std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
+                                     const Range& range, Problems& problems) {
+  const auto bare = unit != 1.0 ? number_of(cell.text) : std::nullopt;
+  if (!bare) return checked_number(cell.text, cell.place(), name, range, problems);
+  if (range.holds(*bare * unit)) return *bare * unit;
+  problems.add(cell.place(), fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
+               ProblemKind::out_of_range, "{} ({})", range.expected(), name);
+  return std::nullopt;
+}
+
+CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
+                  Problems& problems) {
   std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
   drop_notes(rows, problems);
   if (rows.empty()) {
@@ -210,39 +212,38 @@ std::vector<CsvLine> read_csv(std::string_view text, const std::vector<CsvColumn
                  ProblemKind::empty_file, expected_header(columns));
     return {};
   }
-  std::vector<CsvLine> lines = read_table(std::move(rows), columns, problems);
-  if (lines.empty() && !problems.any()) {
-    problems.add("", "a header line only", ProblemKind::empty_file,
-                 "at least one line of numbers below it");
-  }
-  return lines;
+  return read_table(std::move(rows), columns, problems);
 }
 
-std::vector<CsvLine> read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
-                                Problems& problems) {
+CsvTable read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
+                    Problems& problems) {
+  CsvTable table;
   drop_trailing_cells(rows);
   const std::vector<CellOfColumn> index = match_header(rows[0], columns, problems);
-  if (index.empty()) return {};
+  if (index.empty()) return table;
   const std::size_t width = rows[0].size();
   if (looks_split_by_decimal_commas(rows, width)) {
     problems.explain(rows[1].front().place(), ProblemKind::decimal_comma,
                      fmt::format("these commas look like decimal commas: write decimals with a "
                                  "point ({} cells are under a header of {}).",
                                  rows[1].size(), width));
-    return {};
+    return table;
   }
-  std::vector<CsvLine> lines;
   for (std::size_t r = 1; r < rows.size(); ++r) {
+    const std::size_t problems_before = problems.list().size();
+    std::vector<std::optional<double>> values(columns.size());
+    CsvRow cells(columns.size(), CsvCell{"", rows[r].front().line, 1});
     if (rows[r].size() == width) {
-      lines.push_back(read_line(rows[r], columns, index, problems));
-      continue;
+      values = read_row(rows[r], columns, index, cells, problems);
+    } else {
+      problems.add(rows[r].front().place(), fmt::format("{} cells", rows[r].size()),
+                   ProblemKind::bad_table, "{} cells, as in the header", width);
     }
-    problems.add(rows[r].front().place(), fmt::format("{} cells", rows[r].size()),
-                 ProblemKind::bad_table, "{} cells, as in the header", width);
-    lines.push_back({std::vector<std::optional<double>>(columns.size()),
-                     CsvRow(columns.size(), CsvCell{"", rows[r].front().line, 1})});
+    table.clean.push_back(problems.list().size() == problems_before);
+    table.rows.push_back(std::move(values));
+    table.cells.push_back(std::move(cells));
   }
-  return lines;
+  return table;
 }
 
 }  // namespace chaintrue::grid::files

@@ -17,8 +17,8 @@
 
 namespace chaintrue::grid::files {
 
-/// Parses text; `file` is the name used in messages. A problem of a formula has the
-/// column in its text. \throws InputError with every problem.
+/// Parses text; `file` is the name used in messages. A problem of a formula has its line and
+/// column. \throws InputError with every problem.
 model::effects::Declaration parse_effect(const std::string& text, const std::string& file);
 std::string write_effect(const model::effects::Declaration& declaration);
 

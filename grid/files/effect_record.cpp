@@ -79,16 +79,17 @@ void check_words(const Cursor&, Declaration& own) {
   if (own.source.empty()) own.source = "declared in a file";
 }
 
-}  // namespace
-
-void add_problems(const std::string& pointer, const std::vector<DeclarationProblem>& found,
-                  Problems& problems) {
+/// Added below the pointer; of a formula with the column in its text.
+void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found) {
   for (const DeclarationProblem& problem : found) {
-    std::string place = pointer + problem.place;
+    std::string place = at.pointer() + problem.place;
     if (problem.offset) place += fmt::format(", column {} of the formula", *problem.offset + 1);
-    problems.add(std::move(place), problem.value, ProblemKind::bad_declaration, problem.expected);
+    at.problems().add(std::move(place), problem.value, ProblemKind::bad_declaration,
+                      problem.expected);
   }
 }
+
+}  // namespace
 
 const Record<Declaration>& declaration_record() {
   static const auto record = [] {
@@ -135,7 +136,7 @@ Value<std::vector<const Effect*>> declared_value() {
               const Cursor own = at.element(i);
               const auto declaration = declaration_record().read(own);
               if (!declaration || !own.clean()) continue;
-              add_problems(own.pointer(), problems_of(*declaration), own.problems());
+              add_problems(own, problems_of(*declaration));
               if (!own.clean()) continue;
               const Effect* effect = &declared_effect(*declaration);
               const bool is_twice =
@@ -158,8 +159,7 @@ Value<std::vector<const Effect*>> declared_value() {
 
 void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
   for (std::size_t i = 0; i < machine.declared.size(); ++i)
-    add_problems(at.element(i).pointer(),
-                 problems_on_bed(*declaration_of(*machine.declared[i]), machine), at.problems());
+    add_problems(at.element(i), problems_on_bed(*declaration_of(*machine.declared[i]), machine));
 }
 
 const Effect* declared_in_document(const Cursor& at, std::string_view id) {

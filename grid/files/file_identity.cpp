@@ -16,8 +16,15 @@ std::optional<FileIdentity> identity_from(const struct stat& status) {
                       static_cast<std::uint64_t>(status.st_ino)};
 }
 
-std::mutex log_mutex;
-std::vector<FileIdentity> read_log;
+struct ReadLog {
+  std::mutex mutex;
+  std::vector<FileIdentity> files;
+};
+
+ReadLog& read_log() {
+  static ReadLog log;
+  return log;
+}
 
 }  // namespace
 
@@ -36,18 +43,21 @@ std::optional<FileIdentity> identity_of_descriptor(int descriptor) {
 void note_as_read(int descriptor) {
   const auto identity = identity_of_descriptor(descriptor);
   if (!identity) return;
-  const std::scoped_lock lock(log_mutex);
-  if (!contains(read_log, *identity)) read_log.push_back(*identity);
+  ReadLog& log = read_log();
+  const std::scoped_lock lock(log.mutex);
+  if (!contains(log.files, *identity)) log.files.push_back(*identity);
 }
 
 void forget_files_read() {
-  const std::scoped_lock lock(log_mutex);
-  read_log.clear();
+  ReadLog& log = read_log();
+  const std::scoped_lock lock(log.mutex);
+  log.files.clear();
 }
 
 std::vector<FileIdentity> files_read() {
-  const std::scoped_lock lock(log_mutex);
-  return read_log;
+  ReadLog& log = read_log();
+  const std::scoped_lock lock(log.mutex);
+  return log.files;
 }
 
 }  // namespace chaintrue::grid::files

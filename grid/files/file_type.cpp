@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <optional>
 
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
@@ -14,6 +15,23 @@
 namespace chaintrue::grid::files {
 namespace {
 
+constexpr std::string_view kTypeKey = "file_type";
+
+/// The outermost object's value, even if the rest of the text is not JSON.
+std::optional<std::string> type_in_head(const std::string& text) {
+  using Event = Json::parse_event_t;
+  std::optional<std::string> type;
+  bool is_type = false;
+  const auto look = [&](int depth, Event event, const Json& parsed) {
+    if (is_type && !type && event == Event::value && parsed.is_string())
+      type = parsed.get<std::string>();
+    is_type = event == Event::key && depth == 1 && parsed == kTypeKey;
+    return depth == 0;  // nothing is stored
+  };
+  [[maybe_unused]] const Json nothing = Json::parse(text, look, false);
+  return type;
+}
+
 FileKind kind_of_csv(std::string_view text) {
   const std::vector<std::string> header = csv_header(text);
   const bool is_of_holes =
@@ -21,11 +39,12 @@ FileKind kind_of_csv(std::string_view text) {
   return is_of_holes ? FileKind::holes : FileKind::grid;
 }
 
-/// Empty if there is none.
-std::string file_type_in(const Json& document) {
-  return document.is_object() && document.contains("file_type") && document["file_type"].is_string()
-             ? document["file_type"].get<std::string>()
-             : "";
+/// Only a machine on four belts has anchors.
+bool names_belts(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  const auto machine = json.find("machine");
+  return machine != json.end() && machine->is_object() && machine->contains("anchors");
 }
 
 std::string words_of(FileKind kind) {
@@ -67,13 +86,19 @@ bool is_json(std::string_view text) {
 }
 
 std::string file_type_of(const std::string& text, const std::string& file) {
-  return file_type_in(parse_json(text, file));
+  if (const auto type = type_in_head(text)) return *type;
+  // If no type precedes the first syntax error: the whole text, read as leniently as files are.
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  if (!json.is_object()) return {};
+  const auto type = json.find(kTypeKey);
+  return type != json.end() && type->is_string() ? type->get<std::string>() : std::string();
 }
 
 std::string what_takes(std::string_view file_type) {
   const Format* format = format_of(file_type);
   if (format == nullptr || format->noun.empty()) return {};
-  return format->anew.empty()
+  return format->is_result()
              ? fmt::format(
                    "; this is {}, not a measurement: use the input of chaintrue {}, or the file "
                    "that it wrote with -o",
@@ -83,13 +108,10 @@ std::string what_takes(std::string_view file_type) {
 
 FileKind kind_of(const std::string& text, const std::string& file) {
   if (!is_json(text)) return kind_of_csv(text);
-  const Json document = parse_json(text, file);
-  const Format* format = format_of(file_type_in(document));
-  if (format == nullptr) return FileKind::other;
-  // Only a machine on four belts has anchors.
-  const Json machine = document.value("machine", Json());
-  return format->kind == FileKind::holes && machine.contains("anchors") ? FileKind::belt_holes
-                                                                        : format->kind;
+  const Format* format = format_of(file_type_of(text, file));
+  if (format == nullptr || format->kind != FileKind::holes)
+    return format == nullptr ? FileKind::other : format->kind;
+  return names_belts(text, file) ? FileKind::belt_holes : FileKind::holes;
 }
 
 std::string expected_kinds(const std::vector<FileKind>& kinds) {

@@ -138,6 +138,13 @@ void tell_units(Json& schema) {
 
 std::string number_text(const Json& number) { return fmt::format("{}", number.get<double>()); }
 
+/// The name of an object in the page, from its noun in messages.
+std::string noun_of(const Json& schema) {
+  auto noun = schema["title"].get<std::string>();
+  if (noun.ends_with(',')) noun.pop_back();
+  return noun;
+}
+
 /// The link to an object's own table of keys, derived from its noun.
 std::string anchor_of(const std::string& noun) {
   std::string anchor;
@@ -150,15 +157,18 @@ std::string anchor_of(const std::string& noun) {
 }
 
 bool allows_null(const Json& schema) {
-  const auto holds = [&](const char* key, const Json& one) {
-    return contains(schema.value(key, Json::array()), one);
+  const Json null;
+  const auto holds = [&](const char* key) {
+    return schema.contains(key) && schema[key].is_array() && contains(schema[key], null);
   };
-  return holds("type", nullptr) || holds("enum", nullptr) || holds("anyOf", {{"type", "null"}});
+  if (holds("type") || holds("enum")) return true;
+  return schema.contains("anyOf") && schema["anyOf"].back() == Json{{"type", "null"}};
 }
 
 std::string type_of(const Json& schema) {
-  const Json type = schema.value("type", Json(""));
-  return (type.is_array() ? type.front() : type).get<std::string>();
+  if (!schema.contains("type")) return {};
+  const Json& type = schema["type"];
+  return type.is_array() ? type.front().get<std::string>() : type.get<std::string>();
 }
 
 std::string range_words(const Json& schema) {
@@ -174,13 +184,13 @@ std::string range_words(const Json& schema) {
 }
 
 std::string one_of_words(const Json& names) {
-  std::vector<std::string> words;
+  std::string words;
   for (const Json& name : names) {
-    if (!name.is_null())
-      words.push_back(
-          fmt::format("`{}`", name.is_string() ? name.get<std::string>() : compact_json(name)));
+    if (name.is_null()) continue;
+    words += fmt::format("{}`{}`", words.empty() ? "" : ", ",
+                         name.is_string() ? name.get<std::string>() : compact_json(name));
   }
-  return joined(words);
+  return words;
 }
 
 /// The allowed values, with a link to the table of their own keys.
@@ -193,9 +203,10 @@ std::string values_of(const Json& schema) {
   if (schema.contains("enum")) return one_of_words(schema["enum"]);
   if (schema.contains("const")) return one_of_words(Json::array({schema["const"]}));
   if (schema.contains("oneOf") && !schema.contains("properties")) {
-    std::vector<std::string> words;
-    for (const Json& alternative : schema["oneOf"]) words.push_back(values_of(alternative));
-    return fmt::format("{}", fmt::join(words, " or "));
+    std::string words;
+    for (const Json& alternative : schema["oneOf"])
+      words += (words.empty() ? "" : " or ") + values_of(alternative);
+    return words;
   }
   if (schema.contains("anyOf") && !schema.contains("properties"))
     return values_of(schema["anyOf"][0]);
@@ -209,7 +220,7 @@ std::string values_of(const Json& schema) {
     return words;
   }
   if (schema.contains("title")) {
-    const auto noun = schema["title"].get<std::string>();
+    const std::string noun = noun_of(schema);
     return fmt::format("[{}](#{})", noun, anchor_of(noun));
   }
   if (type == "object") return "object: " + values_of(schema["additionalProperties"]);
@@ -243,7 +254,7 @@ class Tables {
     }
     if (!schema.contains("properties")) return;
     if (!schema.contains("title")) return add(schema["additionalProperties"]);
-    const auto noun = schema["title"].get<std::string>();
+    const std::string noun = noun_of(schema);
     if (!described_.insert(noun).second) return;
     table(noun, schema);
     for (const auto& [key, property] : schema["properties"].items()) add(property);

@@ -62,6 +62,7 @@ class Lines {
                std::string_view by) {
     out_.remarks.push_back(fmt::format("{} changes from {} to {}, by {}", key, from, to, by));
   }
+  bool imported() const { return imported_; }
 
  private:
   bool imported_;

@@ -20,9 +20,8 @@ ReadHoles finish(StatedHoles set, HolesPlaces places, const MeasuredOptions& opt
     const bool is_blank = !line.distance_mm && !line.is_spoilt;
     blanks.push_back(is_blank ? fmt::format("{}-{}", line.from, line.to) : "");
   }
-  keep_only(filled_in(blanks, "distances", "tape readings, written into distance_mm",
-                      places.distances, problems),
-            set.lines, places.distance);
+  constexpr EntryWords kWords{"distances", "tape readings, written into distance_mm"};
+  keep_only(filled_in(blanks, kWords, places.distances, problems), set.lines, places.distance);
   if (options.machine) set.belt_machine.reset();
   if (!set.belt_machine) fetch_machine(set.machine, set.machine_file, options, problems);
   const TapeOptions& tape = options.tape;

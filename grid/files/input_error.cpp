@@ -33,7 +33,8 @@ std::string_view InputProblem::name() const {
 }
 
 std::string Warning::message() const {
-  return InputProblem{file, place, "", "", sentence}.message();
+  return place.empty() ? fmt::format("{}: {}", file, sentence)
+                       : fmt::format("{}: {}: {}", file, place, sentence);
 }
 
 InputError::InputError(std::vector<InputProblem> problems)

@@ -2,7 +2,9 @@
 /// \file
 /// JSON text to values and back. Private to grid/files: no other layer uses the JSON library.
 ///
-/// Reading keeps the order of keys and reports every key that occurs twice. Writing prints each number in the fewest digits that read back as
+/// Reading keeps the order of keys, reports every key that occurs twice, and turns numbers that are
+/// not JSON (NaN, Infinity, 1e999) into texts, so that the field's own check reports them by their
+/// pointer and reading continues. Writing prints each number in the fewest digits that read back as
 /// the same double, keys in the order they were added, in a layout that depends on the values only.
 #pragma once
 
@@ -19,9 +21,6 @@ using Json = nlohmann::ordered_json;
 /// Duplicate keys are added to `problems` by pointer. \throws InputError immediately, with line and
 /// column, for text that is not JSON.
 Json parse_json(const std::string& text, Problems& problems);
-
-/// For a look at a text: keys that occur twice are ignored.
-Json parse_json(const std::string& text, const std::string& file);
 
 /// Two blanks per level, lines of at most 100 characters where the values allow, a line break at
 /// the end. \throws std::logic_error where a number is not finite.

@@ -63,8 +63,9 @@ TableModule module_of(const LengthTable& table, std::string source);
 /// The text with the table's {columns}, {rows}, {x}, {y}, {step_x} and {step_y}, the {module}'s name
 /// and, for a comment, the map's {name}, and whatever `more` names.
 template <class... More>
-std::string with_table(std::string_view text, const LengthTable& table, const std::string& module,
-                       std::string name, const More&... more) {
+[[nodiscard]] std::string with_table(std::string_view text, const LengthTable& table,
+                                     const std::string& module, std::string name,
+                                     const More&... more) {
   for (char& c : name) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   return fmt::format(fmt::runtime(text), fmt::arg("name", name), fmt::arg("module", module),
                      fmt::arg("columns", table.columns), fmt::arg("rows", table.rows),

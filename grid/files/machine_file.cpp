@@ -167,7 +167,7 @@ void check_machine(const Cursor& at, Machine& machine) {
                           assumed.ring_radius_mm));
   }
   if (is_in_other_unit(machine)) {
-    const auto unit = other_unit(machine.bed.width_mm);
+    const OtherUnit unit = other_unit(machine.bed.width_mm);
     const auto size = [](double width, double height) {
       return fmt::format("{:.6g} x {:.6g}", width, height);
     };
@@ -203,7 +203,7 @@ void refuse_emptiness(const std::string& text, Problems& problems) {
 
 Record<ControllerSettings> controller_settings_record() {
   Record<ControllerSettings> settings(
-      "the controller's settings, named as GroundControl names them");
+      "the controller's settings, named as GroundControl names them,");
   for (const NumberKey& own : kNumberKeys) {
     // The only setting in words has its place among them.
     if (own.setting == &ControllerSettings::sled_weight_n) {

@@ -19,15 +19,6 @@ namespace {
 constexpr std::size_t kMostNames = 20'000;
 constexpr std::size_t kMostConditions = 100;
 
-/// Empty if the file does not state it.
-using Truth = std::optional<bool>;
-
-Truth negated(Truth a) { return a ? Truth(!*a) : a; }
-Truth both_hold(Truth a, Truth b) {
-  if (a == Truth(false) || b == Truth(false)) return false;
-  return a && b ? Truth(true) : std::nullopt;
-}
-
 class Defines {
  public:
   Defines(const std::string& text, Problems& problems) : problems_(problems) {
@@ -97,7 +88,7 @@ class Defines {
       Branch& own = branches_.back();
       own.holds =
           both_hold(negated(own.held), directive == "else" ? Truth(true) : condition(code.rest));
-      own.held = negated(both_hold(negated(own.held), negated(own.holds)));
+      own.held = one_holds(own.held, own.holds);
     } else if (directive == "define" || directive == "undef") {
       const std::string name = code.word();
       define(name, {std::string(trimmed(code.rest)), place}, directive == "undef");
@@ -122,20 +113,15 @@ class Defines {
     const auto own = defined_.find(name);
     return own != defined_.end() && !own->second.in_force.empty();
   }
-  FormulaValue value_of(std::string_view formula) const {
-    return value_of_formula(
-        formula,
+  Truth condition(std::string_view text) const {
+    return truth_of(
+        text,
         [this](const std::string& name) {
           if (!is_defined(name)) return false;
           const std::string& value = defined_.at(name).in_force.back().text;
           return value.empty() || value == "1" || value == "true";
         },
         [this](const std::string& name) { return is_defined(name); });
-  }
-
-  Truth condition(std::string_view text) const {
-    const double value = value_of(text).value;
-    return std::isnan(value) ? std::nullopt : Truth(value != 0.0);
   }
 
   /// Null if it is not defined or has been reported.
@@ -179,7 +165,7 @@ class Defines {
   /// The formula's value as text; reported if it is not a number.
   void evaluate(std::string_view formula, const std::string& name, const std::string& key,
                 const SettingText& own, SettingTexts& texts) {
-    const auto [value, cut] = value_of(formula);
+    const auto [value, cut] = value_of_formula(formula);
     if (std::isfinite(value) && !cut) {
       texts[key] = {fmt::format("{}", value), own.place};
       return;

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,14 +45,24 @@ struct CodeReader {
   bool is_at_end() const { return trimmed(rest).empty(); }
 };
 
-/// The value of a formula or of the condition of an #if, in which 1 is true and 0 is false.
+/// Empty if the file does not state it.
+using Truth = std::optional<bool>;
+
+inline Truth negated(Truth a) { return a ? Truth(!*a) : a; }
+inline Truth both_hold(Truth a, Truth b) {
+  if (a == Truth(false) || b == Truth(false)) return false;
+  return a && b ? Truth(true) : std::nullopt;
+}
+inline Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
+
+/// Evaluates the condition of an #if.
+Truth truth_of(std::string_view condition, std::function<bool(const std::string& name)> is_enabled,
+               std::function<bool(const std::string& name)> is_defined);
+
 struct FormulaValue {
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< if the text is neither
+  double value = 0.0;         ///< NaN if the text is not a formula
   std::optional<double> cut;  ///< a quotient of whole numbers that is not whole
 };
-/// Whether a name is so.
-using AskedName = std::function<bool(const std::string& name)>;
-FormulaValue value_of_formula(std::string_view text, const AskedName& is_enabled,
-                              const AskedName& is_defined);
+FormulaValue value_of_formula(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -61,9 +61,13 @@ std::string where(const RunStopped& stopped) {
 
 /// The evidence of the single readings and its cause; empty if there are none.
 std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
-  const auto spread_of = [&](Belt belt) { return spread(stopped.readings_mm[belt]); };
-  const Belt worst = *max_element(kBelts, ascending(spread_of));
-  const double most_mm = spread_of(worst);
+  Belt worst = Belt::tl;
+  int apart = 0;
+  for (const Belt belt : kBelts) {
+    if (spread(stopped.readings_mm[belt]) > spread(stopped.readings_mm[worst])) worst = belt;
+    if (spread(stopped.readings_mm[belt]) > kReadingsAgreeMm) ++apart;
+  }
+  const double most_mm = spread(stopped.readings_mm[worst]);
   if (most_mm <= 0.0) return "";
   const std::string text =
       fmt::format(" At waypoint {} the readings of the {} belt are {:.1f} mm apart",
@@ -74,8 +78,6 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
         "retract that belt, extend it again and measure again.",
         text, turns_in_words(turns));
   }
-  const auto apart = std::count_if(kBelts.begin(), kBelts.end(),
-                                   [&](Belt belt) { return spread_of(belt) > kReadingsAgreeMm; });
   if (apart > 1) {
     return fmt::format(
         "{}, and {} belts have inconsistent readings. Possible causes: a sled that still swings, a "
@@ -101,10 +103,13 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
         "the wrong order. Correct this and measure again.",
         grid::words_of(*found->swapped));
   }
-  const auto off = [&](Belt belt) { return std::abs(found->median_mm[belt]); };
-  const Belt worst = *max_element(kBelts, ascending(off));
-  const auto far =
-      std::count_if(kBelts.begin(), kBelts.end(), [&](Belt belt) { return off(belt) > kFarMm; });
+  Belt worst = Belt::tl;
+  int far = 0;
+  for (const Belt belt : kBelts) {
+    const auto off = [&](Belt b) { return std::abs(found->median_mm[b]); };
+    if (off(belt) > off(worst)) worst = belt;
+    if (off(belt) > kFarMm) ++far;
+  }
   if (far != 1) return "";
   const double excess_mm = found->median_mm[worst];
   const int turns = whole_turns(excess_mm, belts.machine.belt_turn_mm, kWholeTurnOfCommandsMm);

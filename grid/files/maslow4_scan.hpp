@@ -89,7 +89,8 @@ class ReadingReader {
   std::optional<ScannedReading> give_up();
 
  private:
-  std::optional<ScannedReading> read(const std::string& text, bool is_closed = true) const;
+  enum class End { closed, lost };
+  std::optional<ScannedReading> read(const std::string& text, End end) const;
   void begin(std::size_t number, std::size_t column);
 
   std::string file_;

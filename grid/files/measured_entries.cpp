@@ -29,7 +29,7 @@ void fetch_machine(std::optional<model::Machine>& machine, const std::string& ma
       machine = std::move(read.machine);
       problems.add_warnings(read.warnings);
     } catch (const InputError& error) {
-      problems.add_all(error.problems());
+      problems.add_all(error);
     }
   } else if (!machine) {
     machine = options.otherwise;
@@ -37,8 +37,8 @@ void fetch_machine(std::optional<model::Machine>& machine, const std::string& ma
 }
 
 std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                   std::string_view entries, const std::string& to_write,
-                                   const std::string& place, Problems& problems) {
+                                   const EntryWords& words, const std::string& place,
+                                   Problems& problems) {
   std::vector<std::size_t> kept;
   std::vector<std::string> blank;
   for (std::size_t i = 0; i < blank_names.size(); ++i) {
@@ -50,12 +50,12 @@ std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
   }
   if (blank.empty()) return kept;
   if (kept.empty()) {
-    problems.add(place, fmt::format("{} {}, all left blank", blank.size(), entries),
-                 ProblemKind::left_blank, to_write);
+    problems.add(place, fmt::format("{} {}, all left blank", blank.size(), words.entries),
+                 ProblemKind::left_blank, std::string(words.to_write));
     problems.throw_if_any();
   }
   problems.warn(place, "{} of {} {} are left blank and left out: {}", blank.size(),
-                blank_names.size(), entries, joined(blank));
+                blank_names.size(), words.entries, joined(blank));
   return kept;
 }
 

@@ -22,8 +22,6 @@
 
 namespace chaintrue::grid::files {
 
-inline constexpr int kOpticalSquares = 15 * 31;
-
 struct OpticalOptions {
   /// Includes the controller that executed the commands.
   model::Machine machine;
@@ -32,10 +30,15 @@ struct OpticalOptions {
   std::optional<VisitingOrder> order;
 };
 
-/// Points with commands; the sheet placed by hand (20 mm, 10 mrad); no noise stated.
+struct ReadOptical {
+  /// Points with commands; the sheet placed by hand (20 mm, 10 mrad); no noise stated.
+  MeasuredGrid grid;
+  int squares = 0;
+};
+
 /// `file` is the name used in messages and, without its folder, the grid's. \throws InputError with
 /// every problem of the file, or if the machine has no controller.
-MeasuredGrid parse_optical(const std::string& text, const std::string& file,
-                           const OpticalOptions& options);
+ReadOptical parse_optical(const std::string& text, const std::string& file,
+                          const OpticalOptions& options);
 
 }  // namespace chaintrue::grid::files

@@ -40,25 +40,26 @@ bool is_without_unit(std::string_view word, std::string_view candidate) {
 /// Limits the number of problems of one kind: of one file, with the same expectation. The number of
 /// the omitted ones is given at the last one listed.
 std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
-  using Kind = std::pair<std::string, std::string>;
   const auto kind_of = [](const InputProblem& problem) {
-    return Kind(problem.file, problem.expected);
+    return std::pair(problem.file, problem.expected);
   };
-  std::map<Kind, std::size_t> total;
+  std::map<std::pair<std::string, std::string>, std::size_t> total;
   for (const InputProblem& problem : all) ++total[kind_of(problem)];
-  std::map<Kind, std::size_t> listed;
+  std::map<std::pair<std::string, std::string>, std::size_t> listed;
   std::vector<InputProblem> few;
   for (const InputProblem& problem : all) {
     const std::size_t most = Problems::kMostOfAKind;
     const std::size_t number = ++listed[kind_of(problem)];
-    const std::size_t in_all = total[kind_of(problem)];
     // One more line is no longer than a count of one.
-    if (number <= most || in_all == most + 1) few.push_back(problem);
-    if (number != most || in_all <= most + 1) continue;
-    few.push_back(problem);
-    few.back().place.clear();
-    few.back().sentence.clear();
-    few.back().value = fmt::format("{} more like these", in_all - most);
+    if (number <= most || total[kind_of(problem)] == most + 1) few.push_back(problem);
+    if (number == most && total[kind_of(problem)] > most + 1) {
+      few.push_back({problem.file,
+                     "",
+                     fmt::format("{} more like these", total[kind_of(problem)] - most),
+                     problem.expected,
+                     {},
+                     problem.kind});
+    }
   }
   return few;
 }
@@ -82,7 +83,7 @@ void Problems::doubt(std::string place, std::string sentence, ProblemKind kind) 
   warnings_.push_back({file_, std::move(place), std::move(sentence), kind});
 }
 
-void Problems::add_all(const std::vector<InputProblem>& found) { append_all(list_, found); }
+void Problems::add_all(const InputError& error) { append_all(list_, error.problems()); }
 
 void Problems::add_warnings(const std::vector<Warning>& warnings) {
   append_all(warnings_, warnings);

@@ -30,9 +30,6 @@ Record<model::ControllerSettings> controller_settings_record();
 
 /// A chaintrue_effect, without the checks of model::effects::problems_of.
 const Record<model::effects::Declaration>& declaration_record();
-/// Problems of a declaration at this pointer; of a formula with the column in its text.
-void add_problems(const std::string& pointer,
-                  const std::vector<model::effects::DeclarationProblem>& found, Problems& problems);
 /// A machine's "declared_effects": each is read, checked and declared.
 Value<std::vector<const model::effects::Effect*>> declared_value();
 /// Whether a machine's declared effects are finite on its bed and 0 at null.

@@ -35,6 +35,10 @@ bool is_first(std::map<std::string, std::string>& places, const std::string& key
   return is_new;
 }
 
+std::string at_most_settings() {
+  return fmt::format("at most {} lines of settings", kMostSettings);
+}
+
 }  // namespace
 
 std::string in_small_letters(std::string_view text) {
@@ -49,8 +53,7 @@ SettingReader::SettingReader(SettingTexts texts, Problems& problems,
                              std::vector<std::string> folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
   if (texts_.size() > kMostSettings)
-    problems.add("", "more settings", ProblemKind::too_many, "at most {} lines of settings",
-                 kMostSettings);
+    problems.add("", "more settings", ProblemKind::too_many, at_most_settings());
 }
 
 const SettingText* SettingReader::look(const std::string& key) {
@@ -74,14 +77,14 @@ std::optional<double> SettingReader::find(const std::string& key, const Range& r
   return checked_number(setting->text, setting->place, key, range, problems_);
 }
 
-double SettingReader::need(const std::string& key, const Range& range) {
+std::optional<double> SettingReader::need(const std::string& key, const Range& range) {
   if (look(key) == nullptr) {
     problems_.add(key, "", ProblemKind::missing,
                   folders_.empty() ? range.expected()
                                    : fmt::format("{}, in [{}]", range.expected(),
                                                  fmt::join(folders_, "] or [")));
   }
-  return find(key, range).value_or(0.0);
+  return find(key, range);
 }
 
 std::optional<std::string> SettingReader::find_word(const std::string& key,
@@ -185,7 +188,8 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
   std::map<std::string, std::string> places;
   std::string section;
   std::size_t strange = 0;
-  for (std::size_t number = 1; texts.size() <= kMostSettings && !text.empty(); ++number) {
+  std::size_t settings = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
@@ -201,6 +205,10 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
                    "[a section] or key = value in a section, as in an ini file");
       if (++strange == kMostStrangeLines) break;
       continue;
+    }
+    if (settings++ == kMostSettings) {
+      problems.add(place, "more settings", ProblemKind::too_many, at_most_settings());
+      break;
     }
     const std::string key = section + in_small_letters(trimmed(line.substr(0, sign)));
     if (is_first(places, key, place, line, problems))

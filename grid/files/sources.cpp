@@ -10,8 +10,15 @@
 namespace chaintrue::grid::files {
 namespace {
 
-thread_local std::vector<SourceFile> noted_sources;
-thread_local std::optional<std::vector<SourceFile>> stated_sources;
+std::vector<SourceFile>& sources_of_this_thread() {
+  thread_local std::vector<SourceFile> sources;
+  return sources;
+}
+
+std::optional<std::vector<SourceFile>>& stated_sources() {
+  thread_local std::optional<std::vector<SourceFile>> sources;
+  return sources;
+}
 
 }  // namespace
 
@@ -21,17 +28,20 @@ std::string name_without_folders(const std::filesystem::path& path) {
   return path == "-" ? "standard input" : path.filename().string();
 }
 
-std::vector<SourceFile> sources_read() { return stated_sources.value_or(noted_sources); }
+std::vector<SourceFile> sources_read() {
+  return stated_sources().value_or(sources_of_this_thread());
+}
 
-void state_sources(std::vector<SourceFile> sources) { stated_sources = std::move(sources); }
+void state_sources(std::vector<SourceFile> sources) { stated_sources() = std::move(sources); }
 
 void note_source(SourceFile source) {
-  if (!contains(noted_sources, source)) noted_sources.push_back(std::move(source));
+  std::vector<SourceFile>& sources = sources_of_this_thread();
+  if (!contains(sources, source)) sources.push_back(std::move(source));
 }
 
 void forget_sources() {
-  noted_sources.clear();
-  stated_sources.reset();
+  sources_of_this_thread().clear();
+  stated_sources().reset();
   forget_files_read();
 }
 

@@ -154,7 +154,7 @@ void read_machines(const fs::path& path, const std::vector<std::string>& effects
       problems.add_warnings(read.warnings);
       at->second = std::move(read.machine);
     } catch (const InputError& error) {
-      problems.add_all(error.problems());
+      problems.add_all(error);
     }
     try {
       const std::size_t own = at->second.declared.size();
@@ -163,7 +163,7 @@ void read_machines(const fs::path& path, const std::vector<std::string>& effects
         given.insert(std::string(at->second.declared[k]->id));
     } catch (const InputError& error) {
       effects_are_sound = false;
-      problems.add_all(error.problems());
+      problems.add_all(error);
     }
     return at->second;
   };

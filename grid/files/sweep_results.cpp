@@ -83,21 +83,39 @@ std::string summary_line(const SweepSpec& spec, const Levels& levels,
   return "    " + compact_json(line);
 }
 
-/// Lines of the report by factor, level and grid; their rms are sums of squares until it is written.
-using LevelSums = std::map<std::array<std::size_t, 3>, LevelError>;
-
-void add_to(LevelSums& sums, const Levels& levels, const CellResult& r) {
-  if (r.status != CellStatus::done) return;
-  for (std::size_t factor = 0; factor < kFactors; ++factor) {
-    const std::size_t grid = levels[kFactors - 1];
-    LevelError& error =
-        sums.try_emplace({factor, levels[factor], grid}, LevelError{factor, levels[factor], grid})
-            .first->second;
-    ++error.cells;
-    error.tool_rms_mm += r.tool_rms_mm * r.tool_rms_mm;
-    error.tool_max_mm = std::max(error.tool_max_mm, r.tool_max_mm);
+// Sums of the report's lines, one for each factor, level and grid.
+class LevelSums {
+ public:
+  explicit LevelSums(const SweepSpec& spec) : grids_(spec.grids.size()) {
+    const auto counts = level_counts(spec);
+    for (std::size_t factor = 0; factor < kFactors; ++factor) {
+      first_[factor] = errors_.size();
+      for (std::size_t level = 0; level < counts[factor]; ++level) {
+        for (std::size_t grid = 0; grid < grids_; ++grid) errors_.push_back({factor, level, grid});
+      }
+    }
   }
-}
+  void add(const Levels& levels, const CellResult& r) {
+    if (r.status != CellStatus::done) return;
+    for (std::size_t factor = 0; factor < kFactors; ++factor) {
+      LevelError& error = errors_[first_[factor] + levels[factor] * grids_ + levels[kFactors - 1]];
+      ++error.cells;
+      error.tool_rms_mm += r.tool_rms_mm * r.tool_rms_mm;
+      error.tool_max_mm = std::max(error.tool_max_mm, r.tool_max_mm);
+    }
+  }
+  [[nodiscard]] std::vector<LevelError> finished() && {
+    std::erase_if(errors_, [](const LevelError& error) { return error.cells == 0; });
+    for (LevelError& error : errors_)
+      error.tool_rms_mm = std::sqrt(error.tool_rms_mm / as_double(error.cells));
+    return std::move(errors_);
+  }
+
+ private:
+  std::size_t grids_;
+  std::array<std::size_t, kFactors> first_{};
+  std::vector<LevelError> errors_;
+};
 
 }  // namespace
 
@@ -109,7 +127,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells
   PendingFile summary(directory / "summary.json");
   csv.write(csv_header());
   summary.write(summary_head(spec));
-  LevelSums sums;
+  LevelSums sums(spec);
   const auto repetitions = static_cast<std::uint64_t>(spec.repetitions);
   std::vector<CellResult> combination;
   std::string levels_text;
@@ -124,7 +142,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells
     }
     csv.write(fmt::format("{}{},{},{}{}\n", cell, levels_text, repetition, name(result.status),
                           csv_values(result)));
-    add_to(sums, levels, result);
+    sums.add(levels, result);
     combination.push_back(result);
     if (repetition + 1 == repetitions) {
       const bool last = cell + 1 == cells.size();
@@ -133,12 +151,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells
   }
   summary.write("  ]\n}\n");
   take_places({&csv, &summary});
-  std::vector<LevelError> errors;
-  for (const auto& [place, sum] : sums) {
-    errors.push_back(sum);
-    errors.back().tool_rms_mm = std::sqrt(sum.tool_rms_mm / as_double(sum.cells));
-  }
-  return errors;
+  return std::move(sums).finished();
 }
 
 }  // namespace chaintrue::grid::files

@@ -16,7 +16,8 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 bool is_webcontrol(const std::string& text, const std::string& file) {
-  const Json json = parse_json(text, file);
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
   return json.is_object() && json.contains("Maslow Settings") && json.contains("Advanced Settings");
 }
 

@@ -19,6 +19,7 @@ TEST(FileKind, JsonIsRecognisedByItsType) {
       kind(R"({"machine": {"file_type": "chaintrue_machine"}, "file_type": "chaintrue_belts"})"),
       FileKind::belts);
   EXPECT_EQ(kind("\xEF\xBB\xBF \n {\"file_type\": \"chaintrue_anchors\"}"), FileKind::anchors);
+  EXPECT_EQ(kind(R"({"x": NaN, "file_type": "chaintrue_diagnosis"})"), FileKind::diagnosis);
   EXPECT_EQ(kind(R"({"file_type": "chaintrue_gird"})"), FileKind::other);
   EXPECT_EQ(kind(R"({"name": "\"chaintrue_grid\""})"), FileKind::other);
   EXPECT_EQ(kind("[1, 2]"), FileKind::other);
@@ -39,7 +40,8 @@ TEST(FileKind, DefaultsToCsv) {
   EXPECT_EQ(kind(""), FileKind::grid);
 }
 
-TEST(FileKind, IsUnknownForTruncatedJson) {
+TEST(FileKind, IsKnownForTruncatedJsonWithAType) {
+  EXPECT_EQ(kind(R"({"file_type": "chaintrue_map", "points": [)"), FileKind::map);
   EXPECT_THROW((void)kind(R"({"points": [)"), InputError);
 }
 

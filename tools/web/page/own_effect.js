@@ -59,7 +59,7 @@ export function ownEffectPart(page) {
       {files: {...page.store.folder, [OWN_EFFECT]: bytesOf(text)}, quiet: true, supersede: "own effect"});
     if (!result || drawn !== text) return;
     keep.disabled = result.code !== DONE;
-    const sentences = result.code === DONE ? [] : sentencesOf(result).map((line) => inPage(line.replace(/^\S+: (\S+, column \d+ of the formula: )?/, "")));
+    const sentences = result.code === DONE ? [] : sentencesOf(result).map((line) => inPage(line.replace(/^\S+: (line \d+, column \d+: )?/, "")));
     said.replaceChildren(...(sentences.length > 0 ? [sentenceList(sentences, {class: "problem"})] : []));
     picture.replaceChildren(...(result.code === DONE ? [drawingFrame("What it does to a square", result.files["own.html"])] : []));
   }
