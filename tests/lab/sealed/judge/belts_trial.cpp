@@ -55,11 +55,15 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
     return cause.effect->id == secret.effect && name(cause.side) == secret.side;
   });
   if (hidden == leading.end()) return false;
-  const auto& g = diagnosis::marginalised_system(a).g;
+  const auto column = [&a](const diagnosis::CauseId& cause) {
+    return diagnosis::reduced(diagnosis::marginalised_system(a),
+                              a.system.g.col(diagnosis::best_regressor(a, cause)));
+  };
+  const Eigen::VectorXd own = column(*hidden);
   return std::ranges::all_of(leading, [&](const diagnosis::CauseId& other) {
     if (other == *hidden) return true;
-    const double collinearity = diagnosis::collinearity_of(
-        g.col(diagnosis::best_regressor(a, *hidden)), g.col(diagnosis::best_regressor(a, other)));
+    const Eigen::VectorXd its = column(other);
+    const double collinearity = diagnosis::collinearity_of(own.dot(its), own.norm() * its.norm());
     // 1.645 sqrt(2 (1 - collinearity)) separates 95 of 100; members of a class are never separated.
     const double apart = std::max(1.0 - collinearity, 1.0 - diagnosis::kOneClass);
     return 1.645 * std::sqrt(2.0 / apart) <= secret.strength;
