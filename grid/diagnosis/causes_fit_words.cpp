@@ -7,7 +7,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// By OfferedCause::Reason.
+/// Indexed by OfferedCause::Reason.
 constexpr std::string_view kOffered[] = {
     "Possible cause: {}. It is not certain enough to be used in the map; chaintrue diagnose "
     "proposes "

@@ -52,7 +52,7 @@ struct DiscrepancyNoise {
   LowRankNoise covariance;  ///< 1 + s^2 K
   bool is_of_process() const { return process.sigma_mm > 0.0; }
 };
-/// Of -1: no process, and the noise alone.
+/// For -1 there is no process, only the noise.
 DiscrepancyNoise discrepancy_noise(const RegressorSystem& system,
                                    const MarginalisedSystem& marginalised, int discrepancy);
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,

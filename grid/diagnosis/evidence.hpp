@@ -83,7 +83,7 @@ double log_price_of_outlier(Index rows);
 /// For all these groups. Each direction is a separate slip, and a unit has at most as many as rows.
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers);
 MarginalisedSystem marginalise(const RegressorSystem& system, const Flags& outliers);
-/// R^-1 of columns of all rows.
+/// Applies R^-1 to columns that have all rows.
 template <class M>
 linear::Like<M> reduced(const MarginalisedSystem& marginalised, const M& columns) {
   return marginalised.root.solve(marginalised.kept(columns));
@@ -95,7 +95,7 @@ linear::Like<M> with_regressors(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised, const M& columns) {
   return system.g.transpose_times(marginalised.kept.spread(marginalised.root.solve(columns)));
 }
-/// Of every regressor's reduced column.
+/// The squared length of every regressor's reduced column.
 VectorXd squared_lengths(const RegressorSystem& system, const MarginalisedSystem& marginalised);
 /// The kept rows' covariance with the nuisances unknown except for their sigmas: the noise as it
 /// appears in the readings.
@@ -129,7 +129,7 @@ struct NormalEquations {
   /// size itself (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
   VectorXd prior_square;
   double log_det = 0.0;  ///< of V and the discrepancy, without the noise's scale
-  /// Of some of the columns.
+  /// Returns the positions of some of the columns.
   ColumnSet positions(const RegressorSet& some) const;
 };
 /// NormalEquations::prior_square of columns with these squares.
@@ -137,7 +137,7 @@ VectorXd prior_squares(const std::vector<Regressor>& regressors, const Regressor
                        VectorXd squares);
 NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised, RegressorSet columns);
-/// The same of columns that are reduced already.
+/// The same for columns that are reduced already.
 NormalEquations normal_equations(const std::vector<Regressor>& regressors,
                                  const MarginalisedSystem& marginalised, RegressorSet columns,
                                  const MatrixXd& reduced_columns);

@@ -18,7 +18,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Of a column at a step from a value; empty if one of the two machines is invalid.
+/// Describes a column at a step from a value; empty if one of the two machines is invalid.
 template <class At>
 std::optional<VectorXd> central_difference(const At& at, double step) {
   const auto above = at(step);

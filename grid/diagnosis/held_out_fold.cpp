@@ -167,7 +167,7 @@ ExpectedImprovement expected_improvement(const Analysis& a) {
   const ObservationSet area = of_distances || hangs_on_visits(a) ? a.session : over_the_area(a);
   auto there = linearise(area, a.state);
   if (!there || area.units.empty()) return {};
-  // What the tape adds to its readings is no error of the machine.
+  // An error of the tape is not an error of the machine.
   if (of_distances) there->by_setting.rightCols(there->nuisances).setZero();
   const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
   const Estimate named = estimate_of(a, a.decision.regressors);

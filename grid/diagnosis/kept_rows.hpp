@@ -46,7 +46,7 @@ class KeptRows {
   /// Positions of the rows that belong to these units.
   Rows positions(const Indices& units) const;
 
-  /// P all, of a vector or a matrix.
+  /// Returns P times a vector or a matrix.
   template <class M>
   linear::Like<M> operator()(const M& all) const {
     linear::Like<M> kept = all(rows_, Eigen::all);
@@ -56,7 +56,7 @@ class KeptRows {
     }
     return kept;
   }
-  /// P' kept: all rows, zero where none is kept.
+  /// Returns P' times the kept rows: all rows, with zeros where none is kept.
   template <class M>
   linear::Like<M> spread(const M& kept) const {
     linear::Like<M> all = linear::Like<M>::Zero(all_, kept.cols());

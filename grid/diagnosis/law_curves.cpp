@@ -140,7 +140,7 @@ class CurveList {
 
   /// Waves over the span beyond which evenly spaced values mistake one for a longer one: half of the
   /// first number of waves that all of them see nearly in the same phase (the sampling theorem).
-  /// No more than `most`.
+  /// Returns no more than `most`.
   double most_resolvable_waves(double most) const {
     // 0.97: a strength of 12 separates two such waves by less than three sigmas, 12 sqrt(1 -
     // 0.97^2).

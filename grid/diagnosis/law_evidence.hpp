@@ -40,7 +40,7 @@ struct WeighedLaw {
   VectorXd amplitude{};                   ///< given the best context
   MatrixXd covariance{};                  ///< of these
 
-  /// One for each amplitude, in all rows.
+  /// There is one column for each amplitude, in all rows.
   MatrixXd columns(const RegressorSystem& system) const {
     return law_columns(system, *curve, {at});
   }
@@ -48,7 +48,7 @@ struct WeighedLaw {
   VectorXd rows(const RegressorSystem& system) const { return columns(system) * amplitude; }
 };
 
-/// In one of the comparison's marginalised systems.
+/// Refers to one of the comparison's marginalised systems.
 struct LawEvidence {
   double log_without = 0.0;      ///< no law acts
   std::vector<WeighedLaw> laws;  ///< those with a share, heaviest first

@@ -39,7 +39,7 @@ class LawModel {
     }
     columns_ = marginalised.kept(columns_);
     const MatrixXd own = marginalised.root.solve(columns_);
-    // Amplitudes at the usual strength.
+    // These are amplitudes at the usual strength.
     sigmas_ = kUsualSignalToNoise / own.colwise().norm().transpose().array().max(1e-12);
     columns_ = linear::scaled_columns(columns_, sigmas_);
     reduced_.resize(own.rows(), pattern_.cols() + own.cols());

@@ -36,7 +36,7 @@ constexpr VariableUnit kVariableUnits[] = {
     {"n", 1.0, "N", 1.0, "mm a newton"},
     {"visit", 1.0, "visits", 1.0, "mm a visit"}};
 
-/// By Enters.
+/// Indexed by Enters.
 constexpr std::string_view kEntrances[] = {"in the left chain",
                                            "in the right chain",
                                            "in both chains equally",

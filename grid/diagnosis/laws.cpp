@@ -39,7 +39,7 @@ double log_density(const WeighedLaw& law) {
   return law.log_weight - std::log(law.mass) + std::log(density_at(*law.curve, law.at));
 }
 
-/// Of a parameter.
+/// A parameter of a law as estimated.
 struct ValueAndVariance {
   double value = 0.0;
   double variance = 0.0;

@@ -98,7 +98,7 @@ struct CauseScore {
   double log_factor = kMinusInfinity;  ///< log Bayes factor
   int best_regressor = -1;             ///< -1: it shows nowhere
 };
-/// From the inner products of every regressor's column with the residual, and their squares; `ee`: the
+/// Computed from the inner products of every regressor's column with the residual, and their squares; `ee`: the
 /// residual's square.
 std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, const VectorXd& c,
                                       const VectorXd& square, double ee, const NoiseDensity& noise);

@@ -49,7 +49,7 @@ class SingleScore {
     return result;
   }
 
-  /// The largest of all for each column of `e`, which are like MarginalisedSystem::e.
+  /// The largest score for each column of `e`, which are like MarginalisedSystem::e.
   VectorXd largest(const MatrixXd& e) const {
     // Thousands of draws: only products with distinct columns are stored.
     const RegressorColumns& g = system_.g;

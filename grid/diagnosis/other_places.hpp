@@ -29,7 +29,7 @@ struct ExpectedRows {
   VectorXd mean;
   MatrixXd by_unknown;
 };
-/// For other rows of the same settings; `column` gives a regressor's column there, or none.
+/// Predicts other rows with the same settings; `column` gives a regressor's column there, or none.
 ExpectedRows expected_rows(const Analysis& analysis, const Estimate& fitted,
                            const RegressorSystem& there,
                            const std::function<std::optional<VectorXd>(const Regressor&)>& column);

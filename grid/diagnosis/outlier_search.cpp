@@ -31,7 +31,7 @@ struct FreeGroup {
   std::optional<Vector2d> direction;
 
   Index directions() const { return direction ? 1 : rows; }
-  /// D, rows x directions.
+  /// The directions D, rows x directions.
   MatrixXd basis() const {
     return direction ? MatrixXd(*direction) : MatrixXd(MatrixXd::Identity(rows, rows));
   }

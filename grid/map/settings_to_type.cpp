@@ -148,7 +148,7 @@ std::optional<TypedSettings> best_settings(const Truth& truth,
     return errors_with(truth.machine, changed_by(sigmas, free, in_force), places);
   };
   VectorXd sigmas = VectorXd::Zero(std::ssize(free));
-  // By Gauss and Newton. The formulas are nearly linear over some millimetres: the third step is
+  // Gauss-Newton steps. The formulas are nearly linear over some millimetres: the third step is
   // below the typed resolution.
   constexpr int kSteps = 4;
   for (int step = 0; step < kSteps; ++step) {

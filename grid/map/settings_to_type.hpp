@@ -36,7 +36,7 @@ struct ErrorsLine {
   VectorXd errors;
   MatrixXd by_value;  ///< by central differences of a hundredth
 };
-/// Empty where the errors are.
+/// Empty where `errors_at` has no value.
 std::optional<ErrorsLine> linearised(const ErrorsAt& errors_at, const VectorXd& values);
 
 /// An influence on the machine that no setting describes.

@@ -24,7 +24,7 @@ struct Command {
   std::vector<CLI::Option*> arguments;  ///< not among the parts' options
 };
 
-/// Of this verb, whose words these are, and of those below.
+/// Covers this verb, to which these words belong, and the verbs below it.
 std::vector<Command> commands_of(CLI::App& app, const Words& words = {}) {
   Command command{words, &app, parts_of(app), {}};
   std::erase_if(command.parts.options, [&](CLI::Option* option) {

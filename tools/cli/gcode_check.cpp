@@ -106,7 +106,7 @@ int check_compensation(const GcodeMachine& machine, const GcodeOptions& options,
   return code;
 }
 
-/// None without a map.
+/// Null without a map.
 std::unique_ptr<const GcodeMachine> machine_if_any(const GcodeOptions& options) {
   return options.map.empty() ? nullptr : std::make_unique<const GcodeMachine>(options);
 }
