@@ -131,7 +131,9 @@ MapField::MapField(const MapContents& contents) {
                                                           parabola_slopes(x, y, lengths_mm));
     };
     const auto left = spline(direct->lengths_mm.left);
-    surfaces_ = {left, spline(direct->lengths_mm.right)};
+    const auto right = spline(direct->lengths_mm.right);
+    surfaces_ = {left, right};
+    pair_.emplace(*left, *right);
     const MatrixXd no_doubt = MatrixXd::Zero(std::ssize(x), std::ssize(y));
     spread_at_ = NodeSpread{*left, no_doubt, direct->interpolation_sigma_mm, 0.0, contents.noise};
   } else {
@@ -172,11 +174,17 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
     here.lengths = reading->lengths;
     here.mark_jacobian = reading->position_jacobian * sheet_.rotation();
   }
-  for (const Side side : model::kSides) {
-    const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
-    auto slope = here.mark_jacobian.row(row_of(side));
-    here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
-    slope = slope * (1.0 + scale_[side]) + RowVector2d(own.dx, own.dy);
+  if (pair_) {
+    const interp::PairGradient own = pair_->at(mark.x_mm, mark.y_mm);
+    here.lengths = {own.value[0], own.value[1]};
+    here.mark_jacobian << own.dx[0], own.dy[0], own.dx[1], own.dy[1];
+  } else {
+    for (const Side side : model::kSides) {
+      const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
+      auto slope = here.mark_jacobian.row(row_of(side));
+      here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
+      slope = slope * (1.0 + scale_[side]) + RowVector2d(own.dx, own.dy);
+    }
   }
   if (asked == Asked::spread)
     answer.spread_mm = spread_at_(mark, here, reading ? &*reading : nullptr);

@@ -15,6 +15,7 @@
 #include "grid/map/length_map.hpp"
 #include "grid/map/map_contents.hpp"
 #include "interp/measured_region.hpp"
+#include "interp/spline_pair.hpp"
 #include "interp/tensor_spline.hpp"
 #include "model/reading_model.hpp"
 
@@ -61,6 +62,7 @@ class MapField {
   std::optional<model::ReadingModel> machine_;
   model::PerSide<double> scale_{};
   model::PerSide<std::shared_ptr<const interp::Surface>> surfaces_;
+  std::optional<interp::SplinePair> pair_;  ///< a direct map's two surfaces, evaluated together
   SpreadAt spread_at_;
   std::optional<Beyond> beyond_;  ///< none: the surfaces' own continuation
 };
