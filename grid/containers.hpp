@@ -17,6 +17,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #include "grid/eigen.hpp"
@@ -24,9 +25,10 @@
 
 namespace chaintrue::grid {
 
-constexpr std::size_t as_size(std::integral auto position) {
-  return static_cast<std::size_t>(position);
-}
+/// Of a position, or of an enumerator in a table.
+template <class T>
+requires std::integral<T> || std::is_enum_v<T>
+constexpr std::size_t as_size(T position) { return static_cast<std::size_t>(position); }
 constexpr Index as_index(std::integral auto position) { return static_cast<Index>(position); }
 
 constexpr double as_double(std::integral auto count) { return static_cast<double>(count); }
@@ -48,6 +50,23 @@ bool none_of(const Container& all, Predicate holds) {
   return !any_of(all, holds);
 }
 
+template <class Container, class Predicate>
+std::size_t count_where(const Container& all, Predicate holds) {
+  return as_size(std::count_if(std::begin(all), std::end(all), holds));
+}
+template <class Container, class Value>
+std::size_t count_equal(const Container& all, const Value& one) {
+  return as_size(std::count(std::begin(all), std::end(all), one));
+}
+
+/// A member or a function of each element: mapped(points, &MeasuredPoint::mark).
+template <class Container, class Function>
+auto mapped(const Container& all, Function of) {
+  std::vector<std::decay_t<decltype(std::invoke(of, *std::begin(all)))>> found;
+  for (const auto& one : all) found.push_back(std::invoke(of, one));
+  return found;
+}
+
 template <class Container, class... Less>
 void sort(Container& all, Less... less) {
   std::sort(std::begin(all), std::end(all), less...);
@@ -62,6 +81,13 @@ template <class Container, class Predicate>
 auto* find_where(Container& all, Predicate holds) {
   const auto found = std::find_if(std::begin(all), std::end(all), holds);
   return found != std::end(all) ? &*found : nullptr;
+}
+
+/// Whether a member or a function of an element is equal to the value: find_where(crosses,
+/// having(&DrawnCross::name, name)).
+template <class Key, class Value>
+auto having(Key key, Value value) {
+  return [=](const auto& one) { return std::invoke(key, one) == value; };
 }
 
 /// Orders by a member or by a function of each element: stable_sort(models,

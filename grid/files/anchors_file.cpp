@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/provenance_record.hpp"
@@ -149,18 +148,16 @@ auto fit_record() {
 }
 
 const Record<FittedAnchors>& fitted_anchors_record() {
-  static const auto record = [] {
-    RECORD(FittedAnchors, "a chaintrue_anchors file", kAnchorsFormat)
-    SPARSE(name, "Name of the set.")
-    REQUIRED(fit, "The fit.", fit_record())
-    OPTIONAL(holes, "Results from cut and taped holes; absent: none were given.",
-             holes_with_belts_record())
-    ALSO(add_made_by_key)
-    ALSO(add_content_hash, "Hash of everything else; edited anchors are refused.")
-        .check([](const Cursor& at, FittedAnchors&) {
-          if (at.clean()) check_content(at);
-        });
-  }();
+  KEPT_RECORD(FittedAnchors, "a chaintrue_anchors file", kAnchorsFormat)
+  SPARSE(name, "Name of the set.")
+  REQUIRED(fit, "The fit.", fit_record())
+  OPTIONAL(holes, "Results from cut and taped holes; absent: none were given.",
+           holes_with_belts_record())
+  ALSO(add_made_by_key)
+  ALSO(add_content_hash, "Hash of everything else; edited anchors are refused.")
+      .check([](const Cursor& at, FittedAnchors&) {
+        if (at.clean()) check_content(at);
+      });
   return record;
 }
 

@@ -35,14 +35,15 @@ bool holds_repeats(const MeasuredBelts& belts) {
   return false;
 }
 
-std::vector<std::size_t> first_with_lengths_of(const std::vector<BeltPoint>& points) {
+std::vector<BeltCopy> copies_of(const std::vector<BeltPoint>& points) {
   std::map<std::array<double, 4>, std::size_t> known;
-  std::vector<std::size_t> first;
-  for (const BeltPoint& point : points) {
-    const auto& l = point.lengths_mm;
-    first.push_back(known.emplace(std::array{l.tl, l.tr, l.bl, l.br}, first.size()).first->second);
+  std::vector<BeltCopy> copies;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& l = points[i].lengths_mm;
+    const auto [first, is_new] = known.emplace(std::array{l.tl, l.tr, l.bl, l.br}, i);
+    if (!is_new) copies.push_back({i, first->second});
   }
-  return first;
+  return copies;
 }
 
 namespace {
@@ -65,10 +66,8 @@ struct BeltsChecks {
 
   void check_twice() const {
     const bool has_repeats = holds_repeats(belts);
-    const std::vector<std::size_t> first = first_with_lengths_of(belts.points);
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      if (first[i] == i) continue;
-      const std::string same = places.point(first[i], "");
+    for (const auto& [i, first] : copies_of(belts.points)) {
+      const std::string same = places.point(first, "");
       if (has_repeats) {
         problems.warn(places.point(i, ""),
                       "the same four lengths as {} to the last digit; treated as a repeat, like "
@@ -191,12 +190,11 @@ void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Pro
   checks.check_pulls();
 }
 
-void check_belt_distances(const MeasuredBelts& belts, const std::string& distances,
-                          Problems& problems) {
+void check_belt_distances(const MeasuredBelts& belts, Problems& problems) {
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
     const BeltDistance& distance = belts.distances[i];
     const auto place = [&](std::string_view end) {
-      return fmt::format("{}/{}/{}", distances, i, end);
+      return fmt::format("/distances/{}/{}", i, end);
     };
     const auto check = [&](const BeltEnd& end, std::string_view key) {
       const auto* index = std::get_if<std::size_t>(&end);

@@ -24,15 +24,18 @@ std::string lengths_in_words(const BeltPoint& point);
 /// the last digit.
 bool holds_repeats(const MeasuredBelts& belts);
 
-/// For each place the first one with the same four lengths to the last digit, mostly itself.
-[[nodiscard]] std::vector<std::size_t> first_with_lengths_of(const std::vector<BeltPoint>& points);
+/// A place, and the first one with the same four lengths to the last digit.
+struct BeltCopy {
+  std::size_t point;
+  std::size_t first;
+};
+std::vector<BeltCopy> copies_of(const std::vector<BeltPoint>& points);
 
 /// Checks for inches, orders, readings that occur twice, and belts that cannot have been pulled. Call
 /// it only if no value had a problem before.
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems);
-/// Checks the ends of distances. `distances` is their place in the file.
-void check_belt_distances(const MeasuredBelts& belts, const std::string& distances,
-                          Problems& problems);
+/// Checks the ends of distances.
+void check_belt_distances(const MeasuredBelts& belts, Problems& problems);
 /// Enough positions, spread out, that are consistent with one frame and the belts' names. For a log
 /// that is only imported the first two are warnings. True if they are enough for a fit.
 bool check_belts_together(const MeasuredBelts& belts, const BeltPlaces& places, BeltsUse use,

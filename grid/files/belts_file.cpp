@@ -42,10 +42,8 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
                  "points of this file, counted from 1: 1 to {}", count);
   }
   problems.throw_if_any();
-  PointIndices remaining;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!contains(without, i + 1)) remaining.push_back(i);
-  }
+  PointIndices remaining = numbers_below(count);
+  std::erase_if(remaining, [&](std::size_t index) { return contains(without, index + 1); });
   move_ends(remaining, belts, problems);
   problems.throw_if_any();
   keep_only(remaining, belts.points);
@@ -55,17 +53,11 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
 
 std::vector<std::size_t> point_numbers_of(const std::string& text, const std::string& option,
                                           std::string_view what) {
-  constexpr int kMost = 1000000;
-  std::vector<std::size_t> numbers;
-  for (const std::string& part : parts_at_commas(text)) {
-    const auto number = whole_number_of(part, 1, kMost);
-    if (!number) {
-      refuse("the command line", option, shortened(text),
-             fmt::format("numbers of {}, counted from 1, as in 7,12", what));
-    }
-    numbers.push_back(as_size(*number));
-  }
-  return numbers;
+  return list_of_option(text, option,
+                        fmt::format("numbers of {}, counted from 1, as in 7,12", what),
+                        [](const std::string& part) -> std::optional<std::size_t> {
+                          return whole_number_of(part, 1, kMostNumbered);
+                        });
 }
 
 ReadBelts parse_belts(const std::string& text, const std::string& file,
@@ -73,7 +65,7 @@ ReadBelts parse_belts(const std::string& text, const std::string& file,
   Problems problems(file);
   ReadBelts read{read_document(belts_record(), text, problems), {}};
   if (!without.empty()) {
-    check_belt_distances(read.belts, "/distances", problems);
+    check_belt_distances(read.belts, problems);
     problems.throw_if_any();
     leave_out(without, read.belts, problems);
   }
@@ -86,7 +78,7 @@ ReadBelts parse_belts(const std::string& text, const std::string& file,
                           },
                           "/machine"};
   check_belt_points(read.belts, places, problems);
-  if (without.empty()) check_belt_distances(read.belts, "/distances", problems);
+  if (without.empty()) check_belt_distances(read.belts, problems);
   problems.throw_if_any();
   check_belts_together(read.belts, places, BeltsUse::fit, problems);
   problems.throw_if_any();

@@ -268,14 +268,12 @@ Record<BeltMachine> belt_machine_record() {
 }
 
 const Record<MeasuredBelts>& belts_record() {
-  static const auto record = [] {
-    RECORD(MeasuredBelts, "a chaintrue_belts file", kBeltsFormat)
-    SPARSE(name, "Name of the set.")
-    OPTIONAL(machine, "The machine with its settings in force.", belt_machine_record())
-    REQUIRED(points, "The places, in any order.", belt_point_record())
-    SPARSE(distances, "Taped distances; without one the scale is unknown.", belt_distance_record())
-    OPTIONAL(firmware_fit, "The machine's report of its own fit.", firmware_fit_record());
-  }();
+  KEPT_RECORD(MeasuredBelts, "a chaintrue_belts file", kBeltsFormat)
+  SPARSE(name, "Name of the set.")
+  OPTIONAL(machine, "The machine with its settings in force.", belt_machine_record())
+  REQUIRED(points, "The places, in any order.", belt_point_record())
+  SPARSE(distances, "Taped distances; without one the scale is unknown.", belt_distance_record())
+  OPTIONAL(firmware_fit, "The machine's report of its own fit.", firmware_fit_record());
   return record;
 }
 

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Blanks around words in a line of text, and what may stand before a text. Private to grid/files.
+/// Letters and blanks in a line of text, and what may stand before a text. Private to grid/files.
 #pragma once
 
 #include <string_view>
 
 namespace chaintrue::grid::files {
+
+constexpr char in_lower_case(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+constexpr bool is_letter(char c) { return in_lower_case(c) >= 'a' && in_lower_case(c) <= 'z'; }
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/check_file.hpp"
 
-#include <algorithm>
-
+#include "grid/containers.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
@@ -21,8 +20,7 @@ Json verdict_of(const Check& check) {
   json["not_told_apart"] = check.not_separable;
   for (const CheckVerdict verdict :
        {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
-    json["probability"][std::string(name(verdict))] =
-        check.probability[static_cast<std::size_t>(verdict)];
+    json["probability"][std::string(name(verdict))] = check.probability[as_size(verdict)];
   }
   return json;
 }
@@ -102,8 +100,7 @@ std::string write_fit(const CompensationMap& map, std::string_view sentence,
   Json json = headed(kFitFormat);
   json["sentence"] = std::string(sentence);
   json["points"] = contents.points.size();
-  json["set_aside"] = std::count_if(contents.points.begin(), contents.points.end(),
-                                    [](const MapPoint& p) { return p.bad; });
+  json["set_aside"] = count_where(contents.points, [](const MapPoint& p) { return p.bad; });
   json["one_at_a_time"] = held_out(contents.accuracy.leave_one_out);
   json["a_block_at_a_time"] = held_out(contents.accuracy.blocked);
   json["expected_tool"] = summary_of(contents.accuracy.expected_tool);

@@ -29,7 +29,7 @@ std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
 }
 
 const NamedSetting* find(const std::vector<NamedSetting>& settings, const std::string& name) {
-  return find_where(settings, [&](const NamedSetting& one) { return one.name == name; });
+  return find_where(settings, having(&NamedSetting::name, name));
 }
 
 /// The text, or the words for a missing value.

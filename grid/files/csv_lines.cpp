@@ -2,7 +2,6 @@
 #include "grid/files/csv_lines.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "grid/containers.hpp"
@@ -13,18 +12,13 @@ namespace chaintrue::grid::files {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kLongMinuses = {"\xE2\x88\x92", "\xE2\x80\x93"};
-/// No-break space, the narrow one, thin and figure space.
-constexpr std::array<std::string_view, 4> kFirmSpaces = {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89",
-                                                         "\xE2\x80\x87"};
-
 std::size_t digits_at(std::string_view text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
   return as_size(end - text.begin());
 }
 
-template <std::size_t n>
-std::size_t size_of_one(std::string_view text, const std::array<std::string_view, n>& signs) {
+/// Of the sign that the text begins with; 0 for any other text.
+std::size_t size_of_one(std::initializer_list<std::string_view> signs, std::string_view text) {
   for (const std::string_view sign : signs) {
     if (text.starts_with(sign)) return sign.size();
   }
@@ -75,7 +69,7 @@ void add_figures(std::string_view figures, WayOfWriting& way) {
     (by_comma ? way.thousands_by_comma : way.thousands_by_point) = true;
   } else if (point) {
     (is_grouped_by(figures, '.') ? way.doubtful_point : way.decimal_point) = true;
-  } else if (comma && std::count(figures.begin(), figures.end(), ',') == 1) {
+  } else if (comma && count_equal(figures, ',') == 1) {
     (is_grouped_by(figures, ',') ? way.doubtful_comma : way.decimal_comma) = true;
   }
 }
@@ -99,8 +93,7 @@ std::optional<NumberMarks> number_marks_of(const WayOfWriting& way, char separat
 std::string rewritten(const std::string& text, const NumberMarks& marks) {
   const std::string_view figures = figures_of(text);
   if (figures.empty()) return text;
-  const auto commas = std::count(figures.begin(), figures.end(), ',');
-  if (marks.decimal == ',' && commas > 1) return text;
+  if (marks.decimal == ',' && count_equal(figures, ',') > 1) return text;
   const bool is_grouped = marks.thousands && is_grouped_by(figures, *marks.thousands);
   const auto begin = as_size(figures.data() - text.data());
   std::string result = text.substr(0, begin);
@@ -116,11 +109,14 @@ std::string rewritten(const std::string& text, const NumberMarks& marks) {
 std::string with_plain_signs(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    if (const std::size_t minus = size_of_one(text, kLongMinuses);
+    if (const std::size_t minus = size_of_one({"\xE2\x88\x92", "\xE2\x80\x93"}, text);
         minus > 0 && digits_at(text.substr(minus)) > 0) {
       result += '-';
       text.remove_prefix(minus);
-    } else if (const std::size_t space = size_of_one(text, kFirmSpaces); space > 0) {
+    } else if (const std::size_t space = size_of_one(
+                   // No-break space, the narrow one, thin and figure space.
+                   {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x87"}, text);
+               space > 0) {
       text.remove_prefix(space);
       const bool in_number = !result.empty() && is_digit(result.back()) && digits_at(text) == 3 &&
                              (text.size() == 3 || text[3] != '/');
@@ -153,8 +149,8 @@ void write_decimal_points(char separator, std::vector<CsvRow>& rows) {
 bool is_like_a_number(std::string_view text) { return !figures_of(text).empty(); }
 
 bool stands_for_nothing(std::string_view text) {
-  constexpr std::array<std::string_view, 10> kNothing = {
-      "-", "--", "---", "\xE2\x80\x93", "\xE2\x80\x94", "?", "n/a", "N/A", "na", "NA"};
+  constexpr std::string_view kNothing[] = {"-", "--",  "---", "\xE2\x80\x93", "\xE2\x80\x94",
+                                           "?", "n/a", "N/A", "na",           "NA"};
   return contains(kNothing, text);
 }
 
@@ -225,15 +221,8 @@ CsvRow csv_cells_of(std::string_view line, char separator, bool& quote_left_open
 }
 
 char separator_of_line(std::string_view line) {
-  char best = ',';
-  std::ptrdiff_t most = 0;
-  for (const char candidate : {',', ';', '\t'}) {
-    const auto count = std::count(line.begin(), line.end(), candidate);
-    if (count > most) {
-      most = count;
-      best = candidate;
-    }
-  }
+  const char best = *max_element(std::string_view(",;\t"),
+                                 ascending([&](char mark) { return count_equal(line, mark); }));
   // Numbers with decimal commas between semicolons have more commas than semicolons.
   return best == ',' && line.find(';') != std::string_view::npos ? ';' : best;
 }
@@ -242,7 +231,7 @@ char separator_of_line(std::string_view line) {
 struct LineOfWords {
   std::string_view text;
   std::size_t number = 0;
-  std::ptrdiff_t filled = 0;
+  std::size_t filled = 0;
 };
 
 /// The start of the table: of the lines above the first numbers the one with most cells. Without
@@ -254,19 +243,17 @@ LineOfWords line_of_header(std::string_view text) {
     bool ignored = false;
     line = line.substr(0, kLongestLine);
     const CsvRow row = csv_cells_of(line, separator_of_line(line), ignored);
-    const auto numbers = std::count_if(
-        row.begin(), row.end(), [](const CsvCell& cell) { return is_like_a_number(cell.text); });
-    const auto filled = std::count_if(row.begin(), row.end(),
-                                      [](const CsvCell& cell) { return !cell.text.empty(); });
+    const std::size_t numbers =
+        count_where(row, [](const CsvCell& cell) { return is_like_a_number(cell.text); });
+    const std::size_t filled =
+        count_where(row, [](const CsvCell& cell) { return !cell.text.empty(); });
     // A hole's name and its two coordinates; an order alone, before readings are typed in, is none.
     found_numbers = numbers >= 2 && 2 * numbers > filled;
     if (!found_numbers || above.empty()) above.push_back({line, number, filled});
     return !found_numbers && above.size() <= kMostAboveHeader;
   });
   if (above.empty()) return {};
-  const auto most = max_element(above, [](const LineOfWords& one, const LineOfWords& other) {
-    return one.filled < other.filled;
-  });
+  const auto most = max_element(above, ascending(&LineOfWords::filled));
   return found_numbers && most->filled > 1 ? *most : above.front();
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
+#include "grid/files/blanks.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -51,7 +52,7 @@ ColumnName column_name(std::string_view text) {
     if (c == '(' || c == ')' || c == '[' || c == ']') continue;
     const bool is_gap = c == ' ' || c == '_';
     if (is_gap && (name.empty() || name.back() == '_')) continue;
-    name += is_gap ? '_' : (c >= 'A' && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
+    name += is_gap ? '_' : in_lower_case(c);
   }
   for (const std::string_view unit : {"_inches", "_inch", "_in"}) {
     if (name.ends_with(unit))
@@ -60,11 +61,9 @@ ColumnName column_name(std::string_view text) {
   return {std::move(name)};
 }
 
-constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
-
 /// The cell of a row in this column.
 struct CellOfColumn {
-  std::size_t index = kNoCell;
+  std::optional<std::size_t> index;
   double factor = 1.0;
 };
 
@@ -77,8 +76,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
   std::vector<std::size_t> unused;
   std::string remarks;
   bool is_wrong = false;
-  std::vector<std::string> names;
-  for (const CsvColumn& column : columns) names.push_back(column.name);
+  const std::vector<std::string> names = mapped(columns, &CsvColumn::name);
   for (std::size_t i = 0; i < header.size(); ++i) {
     const std::string& name = header[i].text;
     found.push_back(name);
@@ -90,20 +88,16 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
                                : fmt::format("; \"{}\" is probably {}", name, meant);
       is_wrong = is_wrong || !meant.empty();
       unused.push_back(i);
-    } else if (CellOfColumn& place = index[as_size(known - names.begin())];
-               place.index == kNoCell) {
-      const double of_column = columns[as_size(known - names.begin())].unit;
-      place = {i, column.factor != 1.0 ? column.factor : of_column};
+    } else if (const std::size_t c = as_size(known - names.begin()); !index[c].index) {
+      index[c] = {i, column.factor != 1.0 ? column.factor : columns[c].unit};
     } else {
       is_wrong = true;
       remarks += fmt::format("; \"{}\" is there twice", name);
     }
   }
-  bool missing = false;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    missing = missing || (columns[i].is_required && index[i].index == kNoCell);
-  }
-  if (!missing && !is_wrong) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    is_wrong = is_wrong || (columns[i].is_required && !index[i].index);
+  if (!is_wrong) {
     for (const std::size_t i : unused) {
       if (!header[i].text.empty())
         problems.warn(header[i].place(), "the column \"{}\" is not used", header[i].text);
@@ -117,9 +111,8 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
   if (is_there("x_mm") && is_there("y_mm") && found.size() <= 3) {
     remarks += "; these are only places, without measurements";
   } else if (any_of(found, [](const std::string& name) {
-               return name.find("distance") != std::string::npos ||
-                      name.find("length") != std::string::npos ||
-                      name.find("measured") != std::string::npos;
+               return any_of(std::initializer_list<const char*>{"distance", "length", "measured"},
+                             [&](const char* word) { return name.find(word) != name.npos; });
              })) {
     remarks += fmt::format("; {}", kLengthsBetween);
   }
@@ -133,31 +126,44 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
   return {};
 }
 
-/// The values of a line, by column.
-std::vector<std::optional<double>> read_row(const CsvRow& row,
-                                            const std::vector<CsvColumn>& columns,
-                                            const std::vector<CellOfColumn>& index, CsvRow& cells,
-                                            Problems& problems) {
-  std::vector<std::optional<double>> values(columns.size());
+/// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
+/// problem is added if it is not a number or out of range.
+std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
+                                     const Range& range, Problems& problems) {
+  const auto bare = unit != 1.0 ? number_of(cell.text) : std::nullopt;
+  if (!bare) return checked_number(cell.text, cell.place(), name, range, problems);
+  if (range.holds(*bare * unit)) return *bare * unit;
+  problems.add(cell.place(), fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
+               ProblemKind::out_of_range, "{} ({})", range.expected(), name);
+  return std::nullopt;
+}
+
+CsvLine read_line(const CsvRow& row, const std::vector<CsvColumn>& columns,
+                  const std::vector<CellOfColumn>& index, Problems& problems) {
+  const std::size_t problems_before = problems.list().size();
+  CsvLine line;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (index[c].index == kNoCell) continue;
+    auto& value = line.values.emplace_back();
+    CsvCell& cell = line.cells.emplace_back(CsvCell{"", row.front().line, 1});
+    if (!index[c].index) continue;
     const CsvColumn& column = columns[c];
-    cells[c] = row[index[c].index];
+    cell = row[*index[c].index];
     if (column.is_text) continue;
-    if (stands_for_nothing(cells[c].text)) cells[c].text.clear();
-    if (!cells[c].text.empty()) {
-      values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
+    if (stands_for_nothing(cell.text)) cell.text.clear();
+    if (!cell.text.empty()) {
+      value = number_in_unit(cell, index[c].factor, column.name, column.range, problems);
     } else if (column.is_required && !column.may_be_blank) {
-      problems.add(cells[c].place(), "", ProblemKind::left_blank, "{} ({})",
-                   column.range.expected(), column.name);
+      problems.add(cell.place(), "", ProblemKind::left_blank, "{} ({})", column.range.expected(),
+                   column.name);
     }
   }
-  return values;
+  line.is_clean = problems.list().size() == problems_before;
+  return line;
 }
 
 /// Lines that end in a separator have one empty cell too many.
 void drop_trailing_cells(std::vector<CsvRow>& rows) {
-  if (!rows[0].empty() && rows[0].size() > 1 && rows[0].back().text.empty()) rows[0].pop_back();
+  if (rows[0].size() > 1 && rows[0].back().text.empty()) rows[0].pop_back();
   for (CsvRow& row : rows) {
     while (row.size() > rows[0].size() && row.back().text.empty()) row.pop_back();
   }
@@ -173,8 +179,8 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
   std::erase_if(rows, [](const CsvRow& row) { return all_of(row, is_empty); });
   while (rows.size() > 1) {
     const CsvRow& last = rows.back();
-    const auto filled = std::count_if(last.begin(), last.end(),
-                                      [](const CsvCell& cell) { return !is_empty(cell); });
+    const std::size_t filled =
+        count_where(last, [](const CsvCell& cell) { return !is_empty(cell); });
     const std::string& text = last.front().text;
     const bool is_words = last.size() > 1
                               ? !is_like_a_number(text) && !is_empty(last.front())
@@ -188,23 +194,12 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
 }  // namespace
 
 std::vector<std::string> csv_header(std::string_view text) {
-  std::vector<std::string> names;
-  for (const CsvCell& cell : header_of_csv(text)) names.push_back(column_name(cell.text).name);
-  return names;
+  return mapped(header_of_csv(text),
+                [](const CsvCell& cell) { return column_name(cell.text).name; });
 }
 
-std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
-                                     const Range& range, Problems& problems) {
-  const auto bare = unit != 1.0 ? number_of(cell.text) : std::nullopt;
-  if (!bare) return checked_number(cell.text, cell.place(), name, range, problems);
-  if (range.holds(*bare * unit)) return *bare * unit;
-  problems.add(cell.place(), fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
-               ProblemKind::out_of_range, "{} ({})", range.expected(), name);
-  return std::nullopt;
-}
-
-CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
-                  Problems& problems) {
+std::vector<CsvLine> read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
+                              Problems& problems) {
   std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
   drop_notes(rows, problems);
   if (rows.empty()) {
@@ -212,38 +207,39 @@ CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
                  ProblemKind::empty_file, expected_header(columns));
     return {};
   }
-  return read_table(std::move(rows), columns, problems);
+  std::vector<CsvLine> lines = read_table(std::move(rows), columns, problems);
+  if (lines.empty() && !problems.any()) {
+    problems.add("", "a header line only", ProblemKind::empty_file,
+                 "at least one line of numbers below it");
+  }
+  return lines;
 }
 
-CsvTable read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
-                    Problems& problems) {
-  CsvTable table;
+std::vector<CsvLine> read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
+                                Problems& problems) {
   drop_trailing_cells(rows);
   const std::vector<CellOfColumn> index = match_header(rows[0], columns, problems);
-  if (index.empty()) return table;
+  if (index.empty()) return {};
   const std::size_t width = rows[0].size();
   if (looks_split_by_decimal_commas(rows, width)) {
     problems.explain(rows[1].front().place(), ProblemKind::decimal_comma,
                      fmt::format("these commas look like decimal commas: write decimals with a "
                                  "point ({} cells are under a header of {}).",
                                  rows[1].size(), width));
-    return table;
+    return {};
   }
+  std::vector<CsvLine> lines;
   for (std::size_t r = 1; r < rows.size(); ++r) {
-    const std::size_t problems_before = problems.list().size();
-    std::vector<std::optional<double>> values(columns.size());
-    CsvRow cells(columns.size(), CsvCell{"", rows[r].front().line, 1});
     if (rows[r].size() == width) {
-      values = read_row(rows[r], columns, index, cells, problems);
-    } else {
-      problems.add(rows[r].front().place(), fmt::format("{} cells", rows[r].size()),
-                   ProblemKind::bad_table, "{} cells, as in the header", width);
+      lines.push_back(read_line(rows[r], columns, index, problems));
+      continue;
     }
-    table.clean.push_back(problems.list().size() == problems_before);
-    table.rows.push_back(std::move(values));
-    table.cells.push_back(std::move(cells));
+    problems.add(rows[r].front().place(), fmt::format("{} cells", rows[r].size()),
+                 ProblemKind::bad_table, "{} cells, as in the header", width);
+    lines.push_back({std::vector<std::optional<double>>(columns.size()),
+                     CsvRow(columns.size(), CsvCell{"", rows[r].front().line, 1})});
   }
-  return table;
+  return lines;
 }
 
 }  // namespace chaintrue::grid::files

@@ -38,26 +38,21 @@ struct CsvColumn {
   bool is_text = false;
 };
 
-/// Rows of numbers by column, in the order of `columns`; absent for empty cells of columns that
-/// allow them.
-struct CsvTable {
-  std::vector<std::vector<std::optional<double>>> rows;
+/// Of a row, in the order of `columns`.
+struct CsvLine {
+  /// Absent for empty cells of columns that allow them.
+  std::vector<std::optional<double>> values;
   /// The cell of each value, for messages; an empty place if there is none.
-  std::vector<CsvRow> cells;
-  /// False for a row with a problem.
-  std::vector<bool> clean;
+  CsvRow cells;
+  bool is_clean = false;  ///< false: a problem of it is reported
 };
-
-/// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
-/// problem is added if it is not a number or out of range.
-std::optional<double> number_in_unit(const CsvCell& cell, double unit, std::string_view name,
-                                     const Range& range, Problems& problems);
 
 /// Reads rows whose first one, the header, names `columns`, in any order. Every problem is added; all
 /// rows that could be split are returned.
-CsvTable read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
-                    Problems& problems);
-/// The same, of a text that is one table.
-CsvTable read_csv(std::string_view text, const std::vector<CsvColumn>& columns, Problems& problems);
+std::vector<CsvLine> read_table(std::vector<CsvRow> rows, const std::vector<CsvColumn>& columns,
+                                Problems& problems);
+/// The same, of a text that is one table; a problem if there is no row.
+std::vector<CsvLine> read_csv(std::string_view text, const std::vector<CsvColumn>& columns,
+                              Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -81,8 +81,7 @@ auto shift_record() {
            "the lengths cannot distinguish them.",
            belt_word())
       .check([](const Cursor& at, Outlier&) {
-        const auto is_there = [&](const char* key) { return !at.child(key).json().is_null(); };
-        if (at.clean() && (is_there("x_mm") && is_there("y_mm")) == is_there("off_mm"))
+        if (at.clean() && (at.is_null("x_mm") || at.is_null("y_mm")) == at.is_null("off_mm"))
           at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
       });
 }
@@ -167,82 +166,80 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
 }
 
 const Record<Diagnosis>& diagnosis_record() {
-  static const auto record = [] {
-    RECORD(Diagnosis, "a diagnosis", kDiagnosisFormat)
-    REQUIRED(verdict, "Kind of answer.", verdict_word())
-    REQUIRED(sentence, "The answer.")
-    REQUIRED(what_to_do, "What to do now, most urgent first.")
-    REQUIRED(not_proved, "What the answer does not prove.")
-    REQUIRED(notes, "Further notes for the reader.")
-    REQUIRED(causes,
-             "The named cause; or the set, most probable first; or the causes that act together.",
-             cause_record())
-    REQUIRED(hypotheses, "Every explanation with its probability, most probable first.",
-             hypothesis_record())
-    REQUIRED(left_over, "What remains after the causes are removed.", left_over_record())
-    OPTIONAL(tool_today,
-             "Error of the machine as it is used today, over the measured part: the first "
-             "number of a fit, at least the effect of a claimed law at the points. Absent if "
-             "no map or anchors can be made.",
-             error_summary_record())
-    OPTIONAL(visiting_order,
-             "The order of the visits, if it was not recorded and the readings determine it: "
-             "the causes are for this order. Absent otherwise.",
-             visiting_order_record())
-    OPTIONAL(unexplained, "What remains besides the causes.", unexplained_record())
-    OPTIONAL(budget, "Breakdown of the error.", error_budget_record())
-    ALSO(outlier_keys)
-    REQUIRED(not_testable, "Effects that these data cannot test.", not_testable_record())
-    REQUIRED(bounds, "Upper limits for causes that were not found.", bound_record())
-    SPARSE(declared,
-           "What these readings show about each declared effect of the machine's file; absent "
-           "if there is none.",
-           declared_answer_record())
-    REQUIRED(settings, "The machine's numbers, as in its file and calibrated.",
-             calibrated_setting_record())
-    NAMED(optional, "gain", improvement,
-          "Improvement by the cause at points that it was not fitted to.", improvement_record())
-    REQUIRED(next_measurements, "What to measure next, most informative first.",
-             next_measurement_record())
-    FIELD(
-        computed, "extended_machine", "The machine with what was found.", false,
-        object(machine_record()),
-        [](Diagnosis& object, const model::Machine& machine) { object.extended_machine = machine; },
-        [](const Diagnosis& object) {
-          const bool of_chains = object.observations != Observations::belts &&
-                                 object.observations != Observations::drawing;
-          return of_chains ? machine_record().write(object.extended_machine) : kLeftOut;
-        })
-    REQUIRED(data_corrections, "Effects on the data (a tape's scale), not on the machine.",
-             effect_record())
-    REQUIRED(noise_factor, "Estimated noise divided by the given noise.", kNotNegative)
-    REQUIRED(family_wise_p, "How often noise alone makes any effect look as strong.", kShare)
-    REQUIRED(points, "The points, for pictures.", point_picture_record())
-    REQUIRED(seed, "Seed of the draws for significance.", seed_number())
-    REQUIRED(grid_name, "Name of the grid.")
-    OPTIONAL(stated_noise, "The given noise.", stated_noise_record())
-    OPTIONAL(stability, "Whether the name survives when points are left out.", stability_record())
-    SPARSE(bed_parts,
-           "Results without each quarter of the bed, over which the probabilities are averaged; "
-           "absent without a pattern.",
-           bed_part_record())
-    SPARSE(sessions, "Results for each of several sessions; absent if nothing is named.",
-           session_record())
-    NAMED(optional, "held_out_grid", transferred, "Another grid, predicted.", transfer_record())
-    SPARSE(observations, "What was measured; default: points.",
-           choice<Observations>({{"points", Observations::points},
-                                 {"distances", Observations::distances},
-                                 {"points_and_distances", Observations::both},
-                                 {"belts", Observations::belts},
-                                 {"drawing", Observations::drawing}}))
-    SPARSE(holes, "The holes, for pictures.", hole_picture_record())
-    SPARSE(distances, "The distances, for pictures.", distance_picture_record())
-    OPTIONAL(stated_tape, "The given noise of holes and tape.", stated_tape_record())
-    OPTIONAL(belts, "Results for four belts, if these were diagnosed.", belts_findings_record())
-    OPTIONAL(drawing, "Results for a V-plotter's test drawing, if that was diagnosed.",
-             drawing_findings_record())
-    ALSO(add_made_by_key).check(check_diagnosis);
-  }();
+  KEPT_RECORD(Diagnosis, "a diagnosis", kDiagnosisFormat)
+  REQUIRED(verdict, "Kind of answer.", verdict_word())
+  REQUIRED(sentence, "The answer.")
+  REQUIRED(what_to_do, "What to do now, most urgent first.")
+  REQUIRED(not_proved, "What the answer does not prove.")
+  REQUIRED(notes, "Further notes for the reader.")
+  REQUIRED(causes,
+           "The named cause; or the set, most probable first; or the causes that act together.",
+           cause_record())
+  REQUIRED(hypotheses, "Every explanation with its probability, most probable first.",
+           hypothesis_record())
+  REQUIRED(left_over, "What remains after the causes are removed.", left_over_record())
+  OPTIONAL(tool_today,
+           "Error of the machine as it is used today, over the measured part: the first "
+           "number of a fit, at least the effect of a claimed law at the points. Absent if "
+           "no map or anchors can be made.",
+           error_summary_record())
+  OPTIONAL(visiting_order,
+           "The order of the visits, if it was not recorded and the readings determine it: "
+           "the causes are for this order. Absent otherwise.",
+           visiting_order_record())
+  OPTIONAL(unexplained, "What remains besides the causes.", unexplained_record())
+  OPTIONAL(budget, "Breakdown of the error.", error_budget_record())
+  ALSO(outlier_keys)
+  REQUIRED(not_testable, "Effects that these data cannot test.", not_testable_record())
+  REQUIRED(bounds, "Upper limits for causes that were not found.", bound_record())
+  SPARSE(declared,
+         "What these readings show about each declared effect of the machine's file; absent "
+         "if there is none.",
+         declared_answer_record())
+  REQUIRED(settings, "The machine's numbers, as in its file and calibrated.",
+           calibrated_setting_record())
+  NAMED(optional, "gain", improvement,
+        "Improvement by the cause at points that it was not fitted to.", improvement_record())
+  REQUIRED(next_measurements, "What to measure next, most informative first.",
+           next_measurement_record())
+  FIELD(
+      computed, "extended_machine", "The machine with what was found.", false,
+      object(machine_record()),
+      [](Diagnosis& object, const model::Machine& machine) { object.extended_machine = machine; },
+      [](const Diagnosis& object) {
+        const bool of_chains = object.observations != Observations::belts &&
+                               object.observations != Observations::drawing;
+        return of_chains ? machine_record().write(object.extended_machine) : kLeftOut;
+      })
+  REQUIRED(data_corrections, "Effects on the data (a tape's scale), not on the machine.",
+           effect_record())
+  REQUIRED(noise_factor, "Estimated noise divided by the given noise.", kNotNegative)
+  REQUIRED(family_wise_p, "How often noise alone makes any effect look as strong.", kShare)
+  REQUIRED(points, "The points, for pictures.", point_picture_record())
+  REQUIRED(seed, "Seed of the draws for significance.", seed_number())
+  REQUIRED(grid_name, "Name of the grid.")
+  OPTIONAL(stated_noise, "The given noise.", stated_noise_record())
+  OPTIONAL(stability, "Whether the name survives when points are left out.", stability_record())
+  SPARSE(bed_parts,
+         "Results without each quarter of the bed, over which the probabilities are averaged; "
+         "absent without a pattern.",
+         bed_part_record())
+  SPARSE(sessions, "Results for each of several sessions; absent if nothing is named.",
+         session_record())
+  NAMED(optional, "held_out_grid", transferred, "Another grid, predicted.", transfer_record())
+  SPARSE(observations, "What was measured; default: points.",
+         choice<Observations>({{"points", Observations::points},
+                               {"distances", Observations::distances},
+                               {"points_and_distances", Observations::both},
+                               {"belts", Observations::belts},
+                               {"drawing", Observations::drawing}}))
+  SPARSE(holes, "The holes, for pictures.", hole_picture_record())
+  SPARSE(distances, "The distances, for pictures.", distance_picture_record())
+  OPTIONAL(stated_tape, "The given noise of holes and tape.", stated_tape_record())
+  OPTIONAL(belts, "Results for four belts, if these were diagnosed.", belts_findings_record())
+  OPTIONAL(drawing, "Results for a V-plotter's test drawing, if that was diagnosed.",
+           drawing_findings_record())
+  ALSO(add_made_by_key).check(check_diagnosis);
   return record;
 }
 

@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "grid/containers.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"

@@ -32,17 +32,16 @@ Record<diagnosis::DeclaredAnswer> declared_answer_record();
 Record<diagnosis::CalibratedSetting> calibrated_setting_record();
 Record<diagnosis::HolePicture> hole_picture_record();
 Record<diagnosis::DistancePicture> distance_picture_record();
-/// diagnosis_mechanisms_record.cpp.
-Record<diagnosis::DrawingFindings> drawing_findings_record();
-Record<diagnosis::BeltsFindings> belts_findings_record();
 /// diagnosis_stability_record.cpp.
 Record<diagnosis::Stability> stability_record();
 Record<diagnosis::PartFinding> bed_part_record();
 Record<diagnosis::PartFinding> session_record();
-/// Positions on the bed; diagnosis_point_record.cpp.
+/// Positions on the bed, and the mechanisms that show there; diagnosis_point_record.cpp.
 Record<diagnosis::NextMeasurement> next_measurement_record();
 Record<diagnosis::PointPicture> point_picture_record();
-/// Both contain held-out errors row by row; diagnosis_improvement_record.cpp.
+Record<diagnosis::DrawingFindings> drawing_findings_record();
+Record<diagnosis::BeltsFindings> belts_findings_record();
+/// Both contain held-out errors row by row; diagnosis_stability_record.cpp.
 Record<diagnosis::HeldOutImprovement> improvement_record();
 Record<diagnosis::Transfer> transfer_record();
 

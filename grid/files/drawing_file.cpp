@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/drawing_file.hpp"
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
@@ -58,29 +56,26 @@ auto measure_record() {
   OPTIONAL(sigma_mm, "Noise of the reading, 1 sigma.", {"mm", 0.01, 50.0}).check(check_middle);
 }
 
-bool has_cross(const DrawingInFile& drawing, const std::string& name) {
-  return any_of(drawing.crosses, [&](const DrawnCross& cross) { return cross.name == name; });
+const DrawnCross* cross_of(const TestDrawing& drawing, const std::string& name) {
+  return find_where(drawing.crosses, having(&DrawnCross::name, name));
 }
 
 void check_drawing(const Cursor& at, DrawingInFile& drawing) {
   if (!at.clean()) return;
   for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
-    const auto same = [&](const DrawnCross& cross) {
-      return cross.name == drawing.crosses[i].name;
-    };
-    const auto own = drawing.crosses.begin() + as_index(i);
-    if (std::any_of(drawing.crosses.begin(), own, same))
+    if (cross_of(drawing, drawing.crosses[i].name) != &drawing.crosses[i])
       at.child("crosses").element(i).child("name").expect("a name that no other cross has");
   }
   for (std::size_t i = 0; i < drawing.lines.size(); ++i) {
     const Cursor place = at.child("measures");
     const Cursor measure = place.element(i);
     const MeasureInFile& own = drawing.lines[i];
-    for (const auto& [key, name] : {std::pair{"from", own.from}, std::pair{"to", own.to}}) {
-      if (!has_cross(drawing, name)) measure.child(key).expect("the name of one of the crosses");
-    }
-    if (!own.middle.empty() && !has_cross(drawing, own.middle))
-      measure.child("middle").expect("the name of one of the crosses");
+    const auto check = [&](const char* key, const std::string& name) {
+      if (!cross_of(drawing, name)) measure.child(key).expect("the name of one of the crosses");
+    };
+    check("from", own.from);
+    check("to", own.to);
+    if (!own.middle.empty()) check("middle", own.middle);
     if (own.to == own.from || own.middle == own.from || own.middle == own.to)
       measure.expect("crosses that differ");
   }
@@ -88,18 +83,16 @@ void check_drawing(const Cursor& at, DrawingInFile& drawing) {
 
 const Record<DrawingInFile>& drawing_record() {
   using Drawing = DrawingInFile;
-  static const auto record = [] {
-    RECORD(Drawing, "a test drawing", kDrawingFormat)
-    SPARSE(name, "Name of the drawing.")
-    FIELD(
-        computed, "set", "The plotter with the settings in force when the page was drawn.", true,
-        object(set_plotter_record()),
-        [](Drawing& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
-        [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
-    REQUIRED(crosses, "The crosses of the page.", list(cross_record(), 3))
-    NAMED(required, "measures", lines, "Readings of ruler and string.", measure_record())
-        .check(check_drawing);
-  }();
+  KEPT_RECORD(Drawing, "a test drawing", kDrawingFormat)
+  SPARSE(name, "Name of the drawing.")
+  FIELD(
+      computed, "set", "The plotter with the settings in force when the page was drawn.", true,
+      object(set_plotter_record()),
+      [](Drawing& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
+      [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
+  REQUIRED(crosses, "The crosses of the page.", list(cross_record(), 3))
+  NAMED(required, "measures", lines, "Readings of ruler and string.", measure_record())
+      .check(check_drawing);
   return record;
 }
 
@@ -121,9 +114,7 @@ TestDrawing parse_drawing(const std::string& text, const std::string& file) {
   const DrawingInFile read = read_document(drawing_record(), text, file);
   TestDrawing drawing = read;
   const auto index = [&](const std::string& name) {
-    const auto* found =
-        find_where(read.crosses, [&](const DrawnCross& cross) { return cross.name == name; });
-    return as_size(found - read.crosses.data());
+    return as_size(cross_of(read, name) - read.crosses.data());
   };
   for (const MeasureInFile& own : read.lines) {
     if (!own.value_mm) continue;

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-#include <optional>
-
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/csv_table.hpp"
@@ -15,23 +12,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr std::string_view kTypeKey = "file_type";
-
-/// The outermost object's value, even if the rest of the text is not JSON.
-std::optional<std::string> type_in_head(const std::string& text) {
-  using Event = Json::parse_event_t;
-  std::optional<std::string> type;
-  bool is_type = false;
-  const auto look = [&](int depth, Event event, const Json& parsed) {
-    if (is_type && !type && event == Event::value && parsed.is_string())
-      type = parsed.get<std::string>();
-    is_type = event == Event::key && depth == 1 && parsed == kTypeKey;
-    return depth == 0;  // nothing is stored
-  };
-  [[maybe_unused]] const Json nothing = Json::parse(text, look, false);
-  return type;
-}
-
 FileKind kind_of_csv(std::string_view text) {
   const std::vector<std::string> header = csv_header(text);
   const bool is_of_holes =
@@ -39,26 +19,32 @@ FileKind kind_of_csv(std::string_view text) {
   return is_of_holes ? FileKind::holes : FileKind::grid;
 }
 
-/// Only a machine on four belts has anchors.
-bool names_belts(const std::string& text, const std::string& file) {
+/// Empty if there is none.
+std::string file_type_in(const Json& document) {
+  return document.is_object() && document.contains("file_type") && document["file_type"].is_string()
+             ? document["file_type"].get<std::string>()
+             : "";
+}
+
+/// As far as it is JSON. \throws InputError if it ends or is malformed before its type is known.
+Json head_of(const std::string& text, const std::string& file) {
   Problems problems(file);
-  const Json json = parse_json(text, problems);
-  const auto machine = json.find("machine");
-  return machine != json.end() && machine->is_object() && machine->contains("anchors");
+  Json head = parse_head(text, problems);
+  if (file_type_in(head).empty()) problems.throw_if_any();
+  return head;
 }
 
 std::string words_of(FileKind kind) {
   if (kind == FileKind::belt_holes) return R"("chaintrue_holes" of a machine on four belts)";
   if (kind == FileKind::other) return "";
-  const auto* named = find_where(kFormats, [&](const Format* one) { return one->kind == kind; });
+  const auto* named = find_where(kFormats, having(&Format::kind, kind));
   return fmt::format("\"{}\"", (*named)->file_type);
 }
 
 }  // namespace
 
 const Format* format_of(std::string_view file_type) {
-  const auto* found =
-      find_where(kFormats, [&](const Format* one) { return one->file_type == file_type; });
+  const auto* found = find_where(kFormats, having(&Format::file_type, file_type));
   return found != nullptr ? *found : nullptr;
 }
 
@@ -79,26 +65,19 @@ bool is_json(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;
   // "[EMC]" is a section of an ini file, "[true]" is JSON that no reader accepts.
-  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const bool is_section =
       text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);
   return text[first] == '{' || (text[first] == '[' && !is_section);
 }
 
 std::string file_type_of(const std::string& text, const std::string& file) {
-  if (const auto type = type_in_head(text)) return *type;
-  // If no type precedes the first syntax error: the whole text, read as leniently as files are.
-  Problems problems(file);
-  const Json json = parse_json(text, problems);
-  if (!json.is_object()) return {};
-  const auto type = json.find(kTypeKey);
-  return type != json.end() && type->is_string() ? type->get<std::string>() : std::string();
+  return file_type_in(head_of(text, file));
 }
 
 std::string what_takes(std::string_view file_type) {
   const Format* format = format_of(file_type);
   if (format == nullptr || format->noun.empty()) return {};
-  return format->is_result()
+  return format->anew.empty()
              ? fmt::format(
                    "; this is {}, not a measurement: use the input of chaintrue {}, or the file "
                    "that it wrote with -o",
@@ -108,10 +87,13 @@ std::string what_takes(std::string_view file_type) {
 
 FileKind kind_of(const std::string& text, const std::string& file) {
   if (!is_json(text)) return kind_of_csv(text);
-  const Format* format = format_of(file_type_of(text, file));
-  if (format == nullptr || format->kind != FileKind::holes)
-    return format == nullptr ? FileKind::other : format->kind;
-  return names_belts(text, file) ? FileKind::belt_holes : FileKind::holes;
+  const Json head = head_of(text, file);
+  const Format* format = format_of(file_type_in(head));
+  if (format == nullptr) return FileKind::other;
+  // Only a machine on four belts has anchors.
+  const Json machine = head.value("machine", Json());
+  return format->kind == FileKind::holes && machine.contains("anchors") ? FileKind::belt_holes
+                                                                        : format->kind;
 }
 
 std::string expected_kinds(const std::vector<FileKind>& kinds) {

@@ -28,8 +28,8 @@ enum class FileKind {
 };
 
 /// JSON by its "file_type"; any other text is CSV, of holes by its first header and of a grid
-/// otherwise. JSON is read only as far as needed. `file` is the name used in messages. \throws
-/// InputError for JSON that ends or is malformed before its type is known.
+/// otherwise. `file` is the name used in messages. \throws InputError for JSON that ends or is malformed
+/// before its type is known.
 FileKind kind_of(const std::string& text, const std::string& file);
 
 /// "\"chaintrue_grid\" or \"chaintrue_belts\"", as in the "expected" part of messages.

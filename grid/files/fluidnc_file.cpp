@@ -16,6 +16,14 @@ bool is_fluidnc(const std::string& text) {
       values, [](const auto& value) { return value.first.starts_with("kinematics/WallPlotter/"); });
 }
 
+model::PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings) {
+  const std::string anchors = "kinematics/WallPlotter/";
+  return {{settings.need(anchors + "left_anchor_x", kCoordinateMm),
+           settings.need(anchors + "left_anchor_y", kCoordinateMm)},
+          {settings.need(anchors + "right_anchor_x", kCoordinateMm),
+           settings.need(anchors + "right_anchor_y", kCoordinateMm)}};
+}
+
 ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   Problems problems(file);
   if (!is_fluidnc(text)) {
@@ -24,20 +32,14 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
     problems.throw_if_any();
   }
   SettingReader settings(yaml_texts(text, problems), problems);
-  const auto number = [&](const std::string& path, const Range& range) {
-    return settings.need(path, range).value_or(0.0);
-  };
   // The same as in model::problems_of, which is applied in any case.
   constexpr Range kTravel{"mm", 200.0, 20000.0};
-  const std::string anchors = "kinematics/WallPlotter/";
   ReadMachine read;
   model::Machine& machine = read.machine;
   machine.name = name_without_folders(file);
-  machine.motors.left = {number(anchors + "left_anchor_x", kCoordinateMm),
-                         number(anchors + "left_anchor_y", kCoordinateMm)};
-  machine.motors.right = {number(anchors + "right_anchor_x", kCoordinateMm),
-                          number(anchors + "right_anchor_y", kCoordinateMm)};
-  machine.bed = {number("axes/x/max_travel_mm", kTravel), number("axes/y/max_travel_mm", kTravel)};
+  machine.motors = fluidnc_anchors(settings);
+  machine.bed = {settings.need("axes/x/max_travel_mm", kTravel),
+                 settings.need("axes/y/max_travel_mm", kTravel)};
   machine.controller = {model::ControllerKind::fluidnc_wallplotter, {}};
   problems.throw_if_any();
   check_geometry(machine, problems);

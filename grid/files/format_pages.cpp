@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
+#include "grid/files/blanks.hpp"
 #include "grid/files/formats.hpp"
+#include "grid/files/parse_double.hpp"
 #include "grid/files/records.hpp"
 #include "model/machine_ranges.hpp"
 
@@ -150,25 +152,21 @@ std::string anchor_of(const std::string& noun) {
   std::string anchor;
   for (const char c : noun) {
     if (c == ' ' || c == '-') anchor += '-';
-    if (c >= 'A' && c <= 'Z') anchor += static_cast<char>(c - 'A' + 'a');
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) anchor += c;
+    if (is_letter(c) || is_digit(c)) anchor += in_lower_case(c);
   }
   return anchor;
 }
 
 bool allows_null(const Json& schema) {
-  const Json null;
-  const auto holds = [&](const char* key) {
-    return schema.contains(key) && schema[key].is_array() && contains(schema[key], null);
+  const auto holds = [&](const char* key, const Json& one) {
+    return contains(schema.value(key, Json::array()), one);
   };
-  if (holds("type") || holds("enum")) return true;
-  return schema.contains("anyOf") && schema["anyOf"].back() == Json{{"type", "null"}};
+  return holds("type", nullptr) || holds("enum", nullptr) || holds("anyOf", {{"type", "null"}});
 }
 
 std::string type_of(const Json& schema) {
-  if (!schema.contains("type")) return {};
-  const Json& type = schema["type"];
-  return type.is_array() ? type.front().get<std::string>() : type.get<std::string>();
+  const Json type = schema.value("type", Json(""));
+  return (type.is_array() ? type.front() : type).get<std::string>();
 }
 
 std::string range_words(const Json& schema) {
@@ -184,13 +182,13 @@ std::string range_words(const Json& schema) {
 }
 
 std::string one_of_words(const Json& names) {
-  std::string words;
+  std::vector<std::string> words;
   for (const Json& name : names) {
-    if (name.is_null()) continue;
-    words += fmt::format("{}`{}`", words.empty() ? "" : ", ",
-                         name.is_string() ? name.get<std::string>() : compact_json(name));
+    if (!name.is_null())
+      words.push_back(
+          fmt::format("`{}`", name.is_string() ? name.get<std::string>() : compact_json(name)));
   }
-  return words;
+  return joined(words);
 }
 
 /// The allowed values, with a link to the table of their own keys.
@@ -202,12 +200,8 @@ std::string values_of(const Json& schema) {
   }
   if (schema.contains("enum")) return one_of_words(schema["enum"]);
   if (schema.contains("const")) return one_of_words(Json::array({schema["const"]}));
-  if (schema.contains("oneOf") && !schema.contains("properties")) {
-    std::string words;
-    for (const Json& alternative : schema["oneOf"])
-      words += (words.empty() ? "" : " or ") + values_of(alternative);
-    return words;
-  }
+  if (schema.contains("oneOf") && !schema.contains("properties"))
+    return fmt::format("{}", fmt::join(mapped(schema["oneOf"], values_of), " or "));
   if (schema.contains("anyOf") && !schema.contains("properties"))
     return values_of(schema["anyOf"][0]);
   const std::string type = type_of(schema);
@@ -280,9 +274,7 @@ class Tables {
 }  // namespace
 
 std::vector<std::string> described_formats() {
-  std::vector<std::string> names;
-  for (const Described& d : kDescribed) names.push_back(name_of(*d.format));
-  return names;
+  return mapped(kDescribed, [](const Described& d) { return name_of(*d.format); });
 }
 
 std::string write_format_schema(std::string_view name) {

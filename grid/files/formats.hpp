@@ -20,13 +20,11 @@ struct Format {
   std::string_view noun = "";  ///< "a map"
   /// The verbs that read such a file or, if none does, the one that wrote it.
   std::string_view verbs = "";
-  /// How to make a file of this version; empty for formats that only other programs read.
+  /// How to make a file of this version; empty for results, which only other programs read.
   std::string_view anew = "";
   Origin origin = Origin::foreign;
   FileKind kind = FileKind::other;
   std::string_view version = "1.0";
-
-  constexpr bool is_result() const { return anew.empty(); }
 };
 
 inline constexpr Format kMachineFormat{"chaintrue_machine",

@@ -22,38 +22,9 @@ namespace {
 /// No hanging router has lengths or a bed below this in mm; in inches all are below it.
 constexpr double kLongestInInches = 250.0;
 
-void check_parts(const StatedPoint& point, const std::string& place, Problems& problems) {
-  const bool any_length = point.left_mm || point.right_mm;
-  const bool any_command = point.commanded_x_mm || point.commanded_y_mm;
-  const bool lengths = point.left_mm && point.right_mm;
-  const bool command = point.commanded_x_mm && point.commanded_y_mm;
-  if (any_length && any_command) {
-    problems.add(place, "both lengths and a command", ProblemKind::contradiction,
-                 "either left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
-  } else if (any_length && !lengths) {
-    problems.add(place, point.left_mm ? "left_mm without right_mm" : "right_mm without left_mm",
-                 ProblemKind::missing, "both lengths");
-  } else if (any_command && !command) {
-    problems.add(place,
-                 point.commanded_x_mm ? "commanded_x_mm without commanded_y_mm"
-                                      : "commanded_y_mm without commanded_x_mm",
-                 ProblemKind::missing, "both coordinates of the command");
-  } else if (!any_length && !any_command) {
-    problems.add(place, "neither lengths nor a command", ProblemKind::missing,
-                 "left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
-  }
-}
-
-/// The gradient of a plane fitted to some value of the points, value per mm of x and of y.
-struct Slope {
-  double per_x = 0.0;
-  double per_y = 0.0;
-  double steepness() const { return std::hypot(per_x, per_y); }
-};
-
-/// Those of the left and of the right chain; empty if fewer than three points have lengths or they do
-/// not span an area.
-std::optional<model::PerSide<Slope>> slopes_of(const std::vector<MeasuredPoint>& points) {
+/// The gradients of planes fitted to the lengths of the left and of the right chain, length per mm of
+/// x and of y; empty if fewer than three points have lengths or they do not span an area.
+std::optional<model::PerSide<Vector2d>> slopes_of(const std::vector<MeasuredPoint>& points) {
   std::vector<Eigen::Vector4d> rows;
   for (const MeasuredPoint& point : points) {
     if (point.lengths)
@@ -61,15 +32,14 @@ std::optional<model::PerSide<Slope>> slopes_of(const std::vector<MeasuredPoint>&
                         point.lengths->right_mm);
   }
   if (rows.size() < 3) return std::nullopt;
-  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
-  for (const Eigen::Vector4d& row : rows) mean += row / as_double(rows.size());
-  Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
-  for (const Eigen::Vector4d& row : rows) products += (row - mean) * (row - mean).transpose();
+  MatrixXd all = Eigen::Map<const MatrixXd>(rows.front().data(), 4, as_index(rows.size()));
+  all.colwise() -= VectorXd(all.rowwise().mean());
+  const Eigen::Matrix4d products = all * all.transpose();
   const Matrix2d spread = products.topLeftCorner<2, 2>();
   constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
   const Matrix2d slope = spread.inverse() * products.topRightCorner<2, 2>();
-  return model::PerSide<Slope>{{slope(0, 0), slope(1, 0)}, {slope(0, 1), slope(1, 1)}};
+  return model::PerSide<Vector2d>{slope.col(0), slope.col(1)};
 }
 
 /// The largest |x|, |y| and length of all points.
@@ -116,26 +86,26 @@ struct GridChecks {
   Problems& problems;
 
   /// Reports another unit than mm; true if found. For grids without a machine.
-  bool check_unit(const std::optional<model::PerSide<Slope>>& slopes) const {
+  bool check_unit(const std::optional<model::PerSide<Vector2d>>& slopes) const {
     const Extent extent = extent_of(grid);
     if (extent.length > 0.0 && extent.length < kLongestInInches &&
         extent.coordinate < kLongestInInches) {
       // Chains reach 2.5 to 3.7 m: 100 to 146 inches, or 250 centimetres and more.
       constexpr double kLongestChainInches = 150.0;
+      const auto& [word, mm] =
+          input_checks::kWrittenUnits[extent.length < kLongestChainInches ? 0 : 1];
       problems.explain(
           places.all, ProblemKind::other_unit,
           fmt::format(
-              "These look like {}: multiply all of them by {}{} (coordinates reach {:.6g}, lengths "
-              "{:.6g}).",
-              extent.length < kLongestChainInches ? "inches" : "centimetres",
-              extent.length < kLongestChainInches ? "25.4" : "10",
-              extent.length < kLongestChainInches ? input_checks::or_say_inches(places.written)
-                                                  : "",
+              "These look like {}: multiply all of them by {:g}{} (coordinates reach {:.6g}, "
+              "lengths {:.6g}).",
+              word, mm,
+              mm == input_checks::kMmPerInch ? input_checks::or_say_inches(places.written) : "",
               extent.coordinate, extent.length));
       return true;
     }
     if (!slopes) return false;
-    const auto [least, most] = std::minmax({slopes->left.steepness(), slopes->right.steepness()});
+    const auto [least, most] = std::minmax({slopes->left.norm(), slopes->right.norm()});
     const bool are_marks = least > kUnitUnder;
     if (!are_marks && most >= kUnitOver) return false;
     const double steepness = 0.5 * (least + most);
@@ -152,10 +122,10 @@ struct GridChecks {
 
   /// Lengths of a machine whose motors are above change with x in opposite ways and decrease towards
   /// the motors. True if x and y are exchanged, which is reported.
-  bool check_axes(const model::PerSide<Slope>& slopes) const {
+  bool check_axes(const model::PerSide<Vector2d>& slopes) const {
     constexpr double kClearly = 0.3;
     const auto& [left, right] = slopes;
-    if (left.per_y > kClearly && right.per_y < -kClearly && left.per_x < 0.0 && right.per_x < 0.0) {
+    if (left.y() > kClearly && right.y() < -kClearly && left.x() < 0.0 && right.x() < 0.0) {
       problems.explain(places.all, ProblemKind::axes,
                        "the two columns look swapped: left lengths grow and right ones shrink "
                        "with y_mm. x_mm counts to the right, y_mm up the sheet.");
@@ -164,16 +134,16 @@ struct GridChecks {
     return false;
   }
 
-  void check_sides(const model::PerSide<Slope>& slopes) const {
+  void check_sides(const model::PerSide<Vector2d>& slopes) const {
     const auto& [left, right] = slopes;
-    if (left.per_x < 0.0 && right.per_x > 0.0) {
+    if (left.x() < 0.0 && right.x() > 0.0) {
       problems.explain(
           places.all, ProblemKind::sides_swapped,
           "the columns left_mm and right_mm look swapped: left lengths shrink and right "
           "ones grow towards +x.");
     }
     constexpr double kClearly = 0.1;
-    if (left.per_y > kClearly && right.per_y > kClearly) {
+    if (left.y() > kClearly && right.y() > kClearly) {
       problems.explain(
           places.all, ProblemKind::axes,
           "y_mm looks counted downwards: both chains grow towards +y, where the motors "
@@ -233,27 +203,6 @@ struct GridChecks {
 
 }  // namespace
 
-std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
-                                           const PointPlaces& places, Problems& problems) {
-  std::vector<MeasuredPoint> points;
-  std::vector<StatedOrder> orders;
-  for (std::size_t i = 0; i < stated.size(); ++i) {
-    const StatedPoint& from = stated[i];
-    if (!from.is_spoilt) check_parts(from, places.of(i, ""), problems);
-    MeasuredPoint point;
-    point.mark = {from.x_mm, from.y_mm};
-    if (from.left_mm && from.right_mm) point.lengths = {*from.left_mm, *from.right_mm};
-    if (from.commanded_x_mm && from.commanded_y_mm) {
-      point.commanded = {*from.commanded_x_mm, *from.commanded_y_mm};
-    }
-    point.order = from.order;
-    points.push_back(point);
-    orders.push_back({from.order, from.is_spoilt});
-  }
-  check_orders(orders, places.of, problems);
-  return points;
-}
-
 void check_points_together(const MeasuredGrid& grid, std::size_t fewest_points,
                            const PointPlaces& places, Problems& problems) {
   const std::size_t count = grid.points.size();
@@ -288,28 +237,27 @@ namespace {
 
 /// A tape's or a laser's noise is a tenth of a millimetre and more: two visits agree in both lengths
 /// to a hundredth once in a thousand times or less.
-bool is_finer_than_noise(const std::vector<StatedPoint>& points) {
+bool is_finer_than_noise(const std::vector<EnteredPoint>& points) {
   constexpr double kPerMm = 10.0;
-  return any_of(points, [](const StatedPoint& point) {
-    const double tenths = kPerMm * point.left_mm.value_or(0.0);
+  return any_of(points, [](const EnteredPoint& entered) {
+    const double tenths = kPerMm * entered.point.lengths.value_or(model::ChainLengths{}).left_mm;
     return std::abs(tenths - std::round(tenths)) > 1e-6;  // rounding of a length in tenths
   });
 }
 
 }  // namespace
 
-void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems) {
+void count_copies_once(std::vector<EnteredPoint>& points, PointPlaces& places, Problems& problems) {
   using Digits = std::array<double, 4>;
   if (!is_finer_than_noise(points)) return;
   std::map<Digits, std::size_t> first;
   std::vector<std::size_t> kept;
   std::string example;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const StatedPoint& point = points[i];
-    const bool is_read = point.left_mm && point.right_mm && !point.order && !point.is_spoilt;
-    if (is_read) {
+    const auto& [mark, lengths, commanded, order] = points[i].point;
+    if (lengths && !order && !points[i].is_spoilt) {
       const auto [at, is_new] =
-          first.emplace(Digits{point.x_mm, point.y_mm, *point.left_mm, *point.right_mm}, i);
+          first.emplace(Digits{mark.x_mm, mark.y_mm, lengths->left_mm, lengths->right_mm}, i);
       if (!is_new) {
         if (example.empty())
           example = fmt::format("{} is {}", places.of(i, ""), places.of(at->second, ""));

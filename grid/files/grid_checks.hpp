@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +18,9 @@ inline constexpr double kRepeatDistanceMm = 25.0;
 /// The fewest points for a map; they must cover an area.
 inline constexpr std::size_t kFewestPoints = 8;
 
-/// A point as a file states it, before it is checked for completeness.
-struct StatedPoint {
-  double x_mm = 0.0;
-  double y_mm = 0.0;
-  std::optional<double> left_mm;
-  std::optional<double> right_mm;
-  std::optional<double> commanded_x_mm;
-  std::optional<double> commanded_y_mm;
-  std::optional<int> order;
+/// A point of a file, before the points are checked together.
+struct EnteredPoint {
+  MeasuredPoint point;
   /// A value of this point was wrong and is already reported.
   bool is_spoilt = false;
   /// Point of a sheet to fill in that has not been read yet.
@@ -45,15 +38,11 @@ struct PointPlaces {
 /// Rows that equal another in every digit are counted once, with a warning; `places` are then those
 /// of the others. Applied only to lengths written to a hundredth of a millimetre or finer, and to
 /// rows without a visit number.
-void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems);
+void count_copies_once(std::vector<EnteredPoint>& points, PointPlaces& places, Problems& problems);
 
 /// Warns of points whose readings equal their commands exactly.
 void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems);
 
-/// Checks that each point has both lengths or both commands, but not both pairs, and that either
-/// all points have distinct orders or none has one.
-std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
-                                           const PointPlaces& places, Problems& problems);
 /// Checks the points together: enough of them, spread over an area, left and right not swapped, in
 /// mm. Call it only if no value had a problem.
 void check_points_together(const MeasuredGrid& grid, std::size_t fewest_points,

@@ -21,7 +21,7 @@ constexpr int kLargestOrder = 1'000'000'000;
 /// The content of the file, before the machine is read and the points are checked together.
 struct StatedGrid : MeasuredGrid {
   std::string machine_file;
-  std::vector<StatedPoint> lines;
+  std::vector<EnteredPoint> lines;
 };
 
 auto noise_record() {
@@ -39,20 +39,47 @@ auto sheet_uncertainty_record() {
   REQUIRED(rotation_mrad, "Uncertainty of the sheet's rotation, 1 sigma.", {"mrad", 0.0, 500.0});
 }
 
-const Record<StatedPoint>& point_record() {
-  static const auto record = [] {
-    RECORD(StatedPoint, "a point")
-    REQUIRED(x_mm, "x of the tool. Null in a list that is not filled in yet.", kCoordinateMm)
-    REQUIRED(y_mm, "y of the tool, up. Null in a list that is not filled in yet.", kCoordinateMm)
-    OPTIONAL(left_mm, "Length of the left chain, as read or as commanded.", kLengthMm)
-    OPTIONAL(right_mm, "Length of the right chain, as read or as commanded.", kLengthMm)
-    OPTIONAL(commanded_x_mm,
-             "Commanded x; the chain lengths are then those of the controller's kinematics.",
-             kCoordinateMm)
-    OPTIONAL(commanded_y_mm, "Commanded y, up.", kCoordinateMm)
-    OPTIONAL(order, "Number of the visit. Either all points have one, all different, or none has.",
-             integer(0, kLargestOrder));
-  }();
+/// `stands`: which of left_mm, right_mm, commanded_x_mm and commanded_y_mm a point has.
+void check_parts(const std::array<bool, 4>& stands, const std::string& place, Problems& problems) {
+  const auto& [left, right, x, y] = stands;
+  if ((left || right) && (x || y)) {
+    problems.add(place, "both lengths and a command", ProblemKind::contradiction,
+                 "either left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
+  } else if (left != right) {
+    problems.add(place, left ? "left_mm without right_mm" : "right_mm without left_mm",
+                 ProblemKind::missing, "both lengths");
+  } else if (x != y) {
+    problems.add(
+        place,
+        x ? "commanded_x_mm without commanded_y_mm" : "commanded_y_mm without commanded_x_mm",
+        ProblemKind::missing, "both coordinates of the command");
+  } else if (!left && !x) {
+    problems.add(place, "neither lengths nor a command", ProblemKind::missing,
+                 "left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
+  }
+}
+
+const Record<MeasuredPoint>& point_record() {
+  KEPT_RECORD(MeasuredPoint, "a point")
+  FIELD(place, &Own::mark, "x of the tool. Null in a list that is not filled in yet.",
+        "y of the tool, up. Null in a list that is not filled in yet.", kCoordinateMm)
+  FIELD(optional, "left_mm", "Length of the left chain, as read or as commanded.",
+        path(&Own::lengths, &model::ChainLengths::left_mm), kLengthMm)
+  FIELD(optional, "right_mm", "Length of the right chain, as read or as commanded.",
+        path(&Own::lengths, &model::ChainLengths::right_mm), kLengthMm)
+  FIELD(optional, "commanded_x_mm",
+        "Commanded x; the chain lengths are then those of the controller's kinematics.",
+        path(&Own::commanded, &model::BedPoint::x_mm), kCoordinateMm)
+  FIELD(optional, "commanded_y_mm", "Commanded y, up.",
+        path(&Own::commanded, &model::BedPoint::y_mm), kCoordinateMm)
+  OPTIONAL(order, "Number of the visit. Either all points have one, all different, or none has.",
+           integer(0, kLargestOrder))
+      .check([](const Cursor& at, Own&) {
+        if (at.clean())
+          check_parts({!at.is_null("left_mm"), !at.is_null("right_mm"),
+                       !at.is_null("commanded_x_mm"), !at.is_null("commanded_y_mm")},
+                      at.pointer(), at.problems());
+      });
   return record;
 }
 
@@ -81,44 +108,38 @@ void read_points(const Cursor& at, StatedGrid& grid) {
   if (!at.json().is_array()) return at.expect("a list of points");
   for (std::size_t i = 0; i < at.json().size(); ++i) {
     const std::size_t problems_before = at.problems().list().size();
-    StatedPoint point;
-    if (is_blank(at.element(i))) {
-      point.is_blank = true;
-      point.order = at.element(i).has("order")
-                        ? integer(0, kLargestOrder).read(at.element(i).child("order"))
-                        : std::nullopt;
-    } else {
-      point = point_record().read(at.element(i)).value_or(StatedPoint{});
+    EnteredPoint& entered = grid.lines.emplace_back();
+    entered.is_blank = is_blank(at.element(i));
+    if (!entered.is_blank) {
+      entered.point = point_record().read(at.element(i)).value_or(MeasuredPoint{});
+    } else if (at.element(i).has("order")) {
+      entered.point.order = integer(0, kLargestOrder).read(at.element(i).child("order"));
     }
-    point.is_spoilt = at.problems().list().size() > problems_before;
-    grid.lines.push_back(point);
+    entered.is_spoilt = at.problems().list().size() > problems_before;
   }
 }
 
 const Record<StatedGrid>& grid_record() {
-  static const auto record = [] {
-    RECORD(StatedGrid, "a grid", kGridFormat)
-    OPTIONAL(name, "Name of the session in messages and pages.")
-    OPTIONAL(machine, "The machine with its settings in force; or machine_file.", machine_record())
-    SPARSE(machine_file, "Path of the machine file, from this file.")
-    OPTIONAL(noise,
-             "Noise of the readings. Missing values are estimated from repeated visits, or "
-             "assumed; none is taken below the rounding of the readings.",
-             noise_record())
-    OPTIONAL(sheet, "How accurately the marks' sheet was placed by hand; absent: exactly.",
-             sheet_uncertainty_record())
-    SPARSE(readings, "What was measured besides the points.", reading_record())
-    FIELD(
-        custom, "points", "The measured points.", true, {"a list of points", points_schema},
+  KEPT_RECORD(StatedGrid, "a grid", kGridFormat)
+  OPTIONAL(name, "Name of the session in messages and pages.")
+  OPTIONAL(machine, "The machine with its settings in force; or machine_file.", machine_record())
+  SPARSE(machine_file, "Path of the machine file, from this file.")
+  OPTIONAL(noise,
+           "Noise of the readings. Missing values are estimated from repeated visits, or "
+           "assumed; none is taken below the rounding of the readings.",
+           noise_record())
+  OPTIONAL(sheet, "How accurately the marks' sheet was placed by hand; absent: exactly.",
+           sheet_uncertainty_record())
+  SPARSE(readings, "What was measured besides the points.", reading_record())
+  FIELD(custom, "points", "The measured points.", true, {"a list of points", points_schema},
         read_points,
-        [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.lines); })
-        .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
-        .check([](const Cursor& at, StatedGrid& grid) {
-          if (grid.machine && !grid.machine_file.empty()) {
-            at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
-          }
-        });
-  }();
+        [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.points); })
+      .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+      .check([](const Cursor& at, StatedGrid& grid) {
+        if (grid.machine && !grid.machine_file.empty()) {
+          at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+        }
+      });
   return record;
 }
 
@@ -126,18 +147,24 @@ const Record<StatedGrid>& grid_record() {
 ReadGrid finish(StatedGrid grid, PointPlaces places, const MeasuredOptions& options,
                 Problems& problems) {
   std::vector<std::string> blanks;
-  for (const StatedPoint& point : grid.lines) {
-    const int number = point.order.value_or(static_cast<int>(blanks.size()) + 1);
-    blanks.push_back(point.is_blank ? fmt::format("{}", number) : "");
+  for (const EnteredPoint& entered : grid.lines) {
+    const int number = entered.point.order.value_or(static_cast<int>(blanks.size()) + 1);
+    blanks.push_back(entered.is_blank ? fmt::format("{}", number) : "");
   }
-  constexpr EntryWords kWords{"points", "the readings, written into the empty columns"};
-  keep_only(filled_in(blanks, kWords, places.all, problems), grid.lines, places.of);
+  keep_only(filled_in(blanks, "points", "the readings, written into the empty columns", places.all,
+                      problems),
+            grid.lines, places.of);
   count_copies_once(grid.lines, places, problems);
   fetch_machine(grid.machine, grid.machine_file, options, problems);
-  const bool points_are_whole =
-      none_of(grid.lines, [](const StatedPoint& point) { return point.is_spoilt; });
+  std::vector<StatedOrder> orders;
+  for (const EnteredPoint& entered : grid.lines) {
+    grid.points.push_back(entered.point);
+    orders.push_back({entered.point.order, entered.is_spoilt});
+  }
   const std::size_t problems_before = problems.list().size();
-  grid.points = measured_points(grid.lines, places, problems);
+  check_orders(orders, places.of, problems);
+  const bool points_are_whole =
+      none_of(orders, [](const StatedOrder& own) { return own.is_spoilt; });
   if (points_are_whole && problems.list().size() == problems_before)
     check_points_together(grid, options.few ? 1 : kFewestPoints, places, problems);
   problems.throw_if_any();
@@ -157,19 +184,16 @@ ReadGrid parse_json_grid(const std::string& text, const MeasuredOptions& options
 }
 
 /// A row without any of its readings is blank; one with half of them is reported.
-void take_blanks(const CsvTable& table, std::size_t i, bool commanded, StatedPoint& point,
-                 Problems& problems) {
-  if (point.is_spoilt) return;
+void take_blanks(const CsvLine& line, bool commanded, EnteredPoint& point, Problems& problems) {
   const std::size_t first = commanded ? 0 : 2;  // columns x_mm and y_mm, or left_mm and right_mm
-  const auto& row = table.rows[i];
-  if (row[first] && row[first + 1]) return;
-  point.is_blank = !row[first] && !row[first + 1];
-  if (point.is_blank) return;
-  point.is_spoilt = true;
+  const bool has_first = line.values[first].has_value();
+  const bool has_second = line.values[first + 1].has_value();
+  point.is_blank = !has_first && !has_second;
+  if (has_first == has_second) return;
   constexpr const char* kNames[] = {"x_mm", "y_mm", "left_mm", "right_mm"};
-  const std::size_t missing = row[first] ? first + 1 : first;
+  const std::size_t missing = has_first ? first + 1 : first;
   const Range& range = commanded ? kCoordinateMm : kLengthMm;
-  problems.add(table.cells[i][missing].place(), "", ProblemKind::left_blank,
+  problems.add(line.cells[missing].place(), "", ProblemKind::left_blank,
                "{} ({}), or both left blank", range.expected(), kNames[missing]);
 }
 
@@ -188,35 +212,36 @@ ReadGrid parse_csv_grid(const std::string& text, const MeasuredOptions& options,
                                           {"order", {"", 0.0, kLargestOrder}, false},
                                           {"commanded_x_mm", kCoordinateMm, commanded},
                                           {"commanded_y_mm", kCoordinateMm, commanded}};
-  const CsvTable table = read_csv(text, columns, problems);
+  const std::vector<CsvLine> lines = read_csv(text, columns, problems);
+  if (lines.empty()) problems.throw_if_any();
   StatedGrid stated;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const auto& row = table.rows[i];
-    StatedPoint point{
-        row[0].value_or(0.0), row[1].value_or(0.0), row[2], row[3], row[5], row[6], {},
-        !table.clean[i]};
-    take_blanks(table, i, commanded, point, problems);
+  for (const CsvLine& line : lines) {
+    const auto& row = line.values;
+    EnteredPoint& entered = stated.lines.emplace_back();
+    MeasuredPoint& point = entered.point;
+    point.mark = {row[0].value_or(0.0), row[1].value_or(0.0)};
+    if (row[2] && row[3]) point.lengths = {*row[2], *row[3]};
+    if (row[5] && row[6]) point.commanded = {*row[5], *row[6]};
+    const std::size_t problems_before = problems.list().size();
+    if (line.is_clean) take_blanks(line, commanded, entered, problems);
+    if (line.is_clean && !entered.is_blank && problems.list().size() == problems_before) {
+      check_parts({row[2].has_value(), row[3].has_value(), row[5].has_value(), row[6].has_value()},
+                  line.cells.front().place(), problems);
+    }
     if (row[kOrder]) {
       if (*row[kOrder] == std::floor(*row[kOrder])) {
         point.order = static_cast<int>(*row[kOrder]);
       } else {
-        point.is_spoilt = true;
-        const CsvCell& cell = table.cells[i][kOrder];
+        const CsvCell& cell = line.cells[kOrder];
         problems.add(cell.place(), cell.text, ProblemKind::not_a_number, "a whole number (order)");
       }
     }
-    stated.lines.push_back(point);
-  }
-  if (table.rows.empty()) {
-    if (!problems.any())
-      problems.add("", "a header line only", ProblemKind::empty_file,
-                   "at least one line of numbers below it");
-    problems.throw_if_any();
+    entered.is_spoilt = !line.is_clean || problems.list().size() > problems_before;
   }
   const PointPlaces places{
       "the points",
-      [&table](std::size_t index, std::string_view field) {
-        const CsvRow& cells = table.cells[index];
+      [&lines](std::size_t index, std::string_view field) {
+        const CsvRow& cells = lines[index].cells;
         return field == "order" && !cells[kOrder].text.empty() ? cells[kOrder].place()
                                                                : cells.front().place();
       },
@@ -233,33 +258,12 @@ ReadGrid parse_grid(const std::string& text, const std::string& file,
                        : parse_csv_grid(text, options, problems);
 }
 
-namespace {
-
-StatedGrid stated_grid(const MeasuredGrid& grid) {
-  StatedGrid stated{grid, {}, {}};
-  for (const MeasuredPoint& point : grid.points) {
-    StatedPoint to{point.mark.x_mm, point.mark.y_mm, {}, {}, {}, {}, point.order};
-    if (point.lengths) {
-      to.left_mm = point.lengths->left_mm;
-      to.right_mm = point.lengths->right_mm;
-    }
-    if (point.commanded) {
-      to.commanded_x_mm = point.commanded->x_mm;
-      to.commanded_y_mm = point.commanded->y_mm;
-    }
-    stated.lines.push_back(to);
-  }
-  return stated;
-}
-
-}  // namespace
-
 std::string write_grid(const MeasuredGrid& grid) {
-  return write_document(grid_record(), stated_grid(grid));
+  return write_document(grid_record(), {grid, {}, {}});
 }
 
 std::string write_grid_sheet(const MeasuredGrid& plan) {
-  Json json = grid_record().write(stated_grid(plan));
+  Json json = grid_record().write({plan, {}, {}});
   for (Json& point : json["points"]) {
     const bool commanded = point.contains("commanded_x_mm");
     point[commanded ? "x_mm" : "left_mm"] = nullptr;

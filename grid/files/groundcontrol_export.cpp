@@ -62,7 +62,6 @@ class Lines {
                std::string_view by) {
     out_.remarks.push_back(fmt::format("{} changes from {} to {}, by {}", key, from, to, by));
   }
-  bool imported() const { return imported_; }
 
  private:
   bool imported_;
@@ -145,8 +144,7 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
   Lines lines(machine, out);
   const auto numbers = [&](std::initializer_list<std::string_view> keys) {
     for (const std::string_view key : keys) {
-      const auto* own =
-          find_where(kNumberKeys, [&](const NumberKey& one) { return one.key == key; });
+      const auto* own = find_where(kNumberKeys, having(&NumberKey::key, key));
       if (const auto value = settings.*own->setting)
         lines.number(own->key, *value, now.*own->setting, by);
     }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -27,7 +26,7 @@ using model::Machine;
 constexpr double kDegreeRad = std::numbers::pi / 180.0;
 
 /// The unit of a file in which the router is too small for mm.
-std::optional<OtherUnit> other_unit_of(SettingReader& settings) {
+std::optional<input_checks::WrittenUnit> other_unit_of(SettingReader& settings) {
   // A bed is at least 200 mm high; motors lie half a metre beyond the widest in centimetres.
   constexpr double kShortest = 10.0;
   const std::pair<const char*, double> most[] = {
@@ -196,7 +195,7 @@ ControllerSettings read_numbers(SettingReader& settings, bool has_brackets, OldR
     number = settings.find(key.key, key.range);
     if (key.need == Need::never || settings.look(key.key) != nullptr) continue;
     number = old.number(key.key, numbers);
-    if (!number) (void)settings.need(key.key, key.range);
+    if (!number) settings.need(key.key, key.range);
   }
   return numbers;
 }

@@ -17,13 +17,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-std::optional<SheetEdge> edge_of(std::string_view word) {
-  for (const SheetEdge edge : kSheetEdges) {
-    if (word == name(edge)) return edge;
-  }
-  return std::nullopt;
-}
-
 std::optional<std::size_t> hole_of(const std::string& word, const std::vector<Hole>& holes) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (holes[i].name == word) return i;
@@ -33,11 +26,7 @@ std::optional<std::size_t> hole_of(const std::string& word, const std::vector<Ho
   return number ? std::optional(as_size(*number)) : std::nullopt;
 }
 
-std::string names_of(const std::vector<Hole>& holes) {
-  std::vector<std::string> names;
-  for (const Hole& hole : holes) names.push_back(hole.name);
-  return joined(names);
-}
+std::string names_of(const std::vector<Hole>& holes) { return joined(mapped(holes, &Hole::name)); }
 
 using Pair = std::pair<std::size_t, std::size_t>;
 

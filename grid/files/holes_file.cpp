@@ -5,12 +5,116 @@
 
 #include <utility>
 
+#include "grid/files/belts_record.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/holes_record.hpp"
+#include "grid/files/ranges.hpp"
+#include "grid/files/records.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
+
+auto tape_record() {
+  RECORD(Tape, "the tape")
+  OPTIONAL(sigma_mm,
+           "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
+           kTapeSigmaMm)
+  NAMED(optional, "hook_offset_mm", tape_zero_offset_mm,
+        "Amount by which each reading exceeds the distance.", kTapeZeroOffsetMm)
+  NAMED(optional, "hook_sigma_mm", tape_zero_offset_sigma_mm,
+        "Uncertainty of the hook offset, 1 sigma; default 3 mm.", kHoleSigmaMm);
+}
+
+auto sheet_record() {
+  RECORD(SheetSize, "the sheet")
+  OPTIONAL(width_mm, "Width of the sheet, for distances to its edges.", {"mm", 100.0, 20000.0})
+  OPTIONAL(height_mm, "Height of the sheet.", {"mm", 100.0, 20000.0})
+  OPTIONAL(size_sigma_mm, "Uncertainty of its size, 1 sigma.", {"mm", 0.0, 100.0});
+}
+
+Record<Hole> hole_record() {
+  RECORD(Hole, "a hole")
+  SPARSE(name, "Any word; without names the holes are numbered from 0.")
+  FIELD(place, &Hole::commanded, "Commanded x of the hole.", "Commanded y of the hole, up.",
+        kCoordinateMm);
+}
+
+/// A hole by its name or by its number.
+Value<std::string> hole_word() {
+  static constexpr int kMost = 100000;
+  return {[](const Cursor& at) -> std::optional<std::string> {
+            if (!at.json().is_number()) return text().read(at);
+            const auto number = integer(0, kMost).read(at);
+            return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+          },
+          [](const std::string& word) { return word; },
+          {"a hole's name or number", [] {
+             return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
+           }}};
+}
+
+auto distance_record() {
+  RECORD(StatedDistance, "a distance")
+  REQUIRED(from, "A hole's name or number.", hole_word())
+  REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.", hole_word())
+  REQUIRED(distance_mm, "The tape reading between the holes' centres. Null if not measured yet.",
+           kTapeDistance)
+  OPTIONAL(sigma_mm, "Noise of this reading, if it differs from the tape's.", kTapeSigmaMm)
+      .check([](const Cursor& at, StatedDistance& own) { own.is_spoilt = !at.clean(); });
+}
+
+/// A machine with anchors hangs on belts.
+void read_stated_machine(const Cursor& at, StatedHoles& stated) {
+  if (at.json().is_object() && at.has("anchors")) {
+    stated.belt_machine = belt_machine_record().read(at);
+    if (stated.belt_machine && !stated.belt_machine->anchors_known && at.clean()) {
+      at.child("anchors").expect(
+          "x_mm and y_mm of all four anchors, as they were in force when the holes were cut");
+    }
+  } else {
+    stated.machine = machine_record().read(at);
+  }
+}
+
+Json written_stated_machine(const StatedHoles& stated) {
+  if (stated.belt_machine) return belt_machine_record().write(*stated.belt_machine);
+  return stated.machine ? machine_record().write(*stated.machine) : kLeftOut;
+}
+
+const Record<StatedHoles>& holes_record() {
+  KEPT_RECORD(StatedHoles, "a set of holes", kHolesFormat)
+  OPTIONAL(name, "Name of the set.")
+  FIELD(custom, "machine", "The machine with its settings in force; or machine_file.", false,
+        {machine_record().expected().words + ", or one with four belts",
+         [] {
+           return Json{
+               {"anyOf",
+                {machine_record().expected().schema(), belt_machine_record().expected().schema()}}};
+         }},
+        read_stated_machine, written_stated_machine)
+  SPARSE(machine_file, "Path of the machine file, from this file.")
+  OPTIONAL(tape, "Noise and hook offset of the tape.", tape_record())
+  OPTIONAL(hole_sigma_mm,
+           "Distance of a hole from the position that follows from its chains, 1 sigma on "
+           "each axis.",
+           kHoleSigmaMm)
+  OPTIONAL(noise_dof, "Degrees of freedom with which these are known.", kNoiseDof)
+  OPTIONAL(sheet, "Size of the sheet, for distances to its edges.", sheet_record())
+  SPARSE(readings, "What was measured besides the distances.", reading_record())
+  REQUIRED(holes, "The holes as commanded.", hole_record())
+  NAMED(required, "distances", lines, "The distances between them, and to edges.",
+        distance_record())
+      .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+      .check([](const Cursor& at, StatedHoles& stated) {
+        stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
+                                     at.child("tape").has("hook_offset_mm");
+        if ((stated.machine || stated.belt_machine) && !stated.machine_file.empty()) {
+          at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+        }
+      });
+  return record;
+}
 
 /// The common part of JSON and CSV, once the fields are read.
 ReadHoles finish(StatedHoles set, HolesPlaces places, const MeasuredOptions& options,
@@ -20,8 +124,9 @@ ReadHoles finish(StatedHoles set, HolesPlaces places, const MeasuredOptions& opt
     const bool is_blank = !line.distance_mm && !line.is_spoilt;
     blanks.push_back(is_blank ? fmt::format("{}-{}", line.from, line.to) : "");
   }
-  constexpr EntryWords kWords{"distances", "tape readings, written into distance_mm"};
-  keep_only(filled_in(blanks, kWords, places.distances, problems), set.lines, places.distance);
+  keep_only(filled_in(blanks, "distances", "tape readings, written into distance_mm",
+                      places.distances, problems),
+            set.lines, places.distance);
   if (options.machine) set.belt_machine.reset();
   if (!set.belt_machine) fetch_machine(set.machine, set.machine_file, options, problems);
   const TapeOptions& tape = options.tape;
@@ -99,5 +204,7 @@ std::string write_holes_sheet(const MeasuredHoles& plan) {
   json["tape"].erase("hook_offset_mm");
   return print_json(json);
 }
+
+Json holes_schema() { return holes_record().schema(); }
 
 }  // namespace chaintrue::grid::files

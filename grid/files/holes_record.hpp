@@ -66,8 +66,6 @@ struct StatedHoles : MeasuredHoles {
   std::vector<StatedDistance> lines;
 };
 
-const Record<StatedHoles>& holes_record();
-
 /// The content of a CSV with its places: `places` refer to `rows`, which they share.
 struct HolesTables {
   StatedHoles stated;

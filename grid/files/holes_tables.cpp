@@ -88,13 +88,11 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
     }
     const std::string& first = begin->front().text;
     const auto end = std::find_if(std::next(begin), rows.end(), is_header);
-    const CsvTable table =
+    const std::vector<CsvLine> lines =
         read_table(filled_rows({begin, end}), columns_below(first, tape_unit), problems);
     begin = end;
     any_distances = any_distances || first != kHoles;
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      const auto& row = table.rows[i];
-      const CsvRow& cells = table.cells[i];
+    for (const auto& [row, cells, is_clean] : lines) {
       if (first == kHoles) {
         stated.holes.push_back({cells[0].text, {row[1].value_or(0.0), row[2].value_or(0.0)}});
         hole_cells.push_back(cells[0]);

@@ -33,8 +33,7 @@ std::string_view InputProblem::name() const {
 }
 
 std::string Warning::message() const {
-  return place.empty() ? fmt::format("{}: {}", file, sentence)
-                       : fmt::format("{}: {}: {}", file, place, sentence);
+  return InputProblem{file, place, "", "", sentence}.message();
 }
 
 InputError::InputError(std::vector<InputProblem> problems)

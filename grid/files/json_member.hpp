@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 
 #include "grid/files/json_value.hpp"
@@ -28,8 +27,8 @@ inline constexpr OptionalAccess kOptionalAccess = {
     }};
 
 /// For a std::optional, or for a member at this offset of what it holds; null if it is empty.
-std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                            const OptionalAccess& access, std::size_t offset = 0);
+SharedCodec optional_codec(const SharedCodec& value, const OptionalAccess& access,
+                           std::size_t offset = 0);
 
 /// What a member holds, which may be a std::optional.
 template <class V>
@@ -43,51 +42,40 @@ struct Held<std::optional<V>> {
   static constexpr bool kIsOptional = true;
 };
 
-/// A member of T, of a base, or of one of its members.
-template <class T, class V>
+/// A member M of T, of a base, or of one of its members; or a V of what a std::optional M holds.
+template <class T, class M, class V = typename Held<M>::Type>
 struct MemberPath {
-  using Type = typename Held<V>::Type;
-  static constexpr bool kIsOptional = Held<V>::kIsOptional;
-  std::shared_ptr<const Codec> codec_for(const Value<Type>& value) const {
-    if constexpr (kIsOptional) return optional_codec(value.codec, kOptionalAccess<Type>);
-    return value.codec;
+  using Type = V;
+  static constexpr bool kIsOptional = Held<M>::kIsOptional;
+  SharedCodec codec_for(const Value<V>& value) const {
+    if constexpr (kIsOptional) {
+      return optional_codec(value.codec, kOptionalAccess<typename Held<M>::Type>, inner);
+    } else {
+      return value.codec;
+    }
   }
   std::size_t offset = 0;
+  std::size_t inner = 0;  ///< in what the std::optional holds
 };
+
 /// T itself has the member, or a base of it.
-template <class T, class B, class V>
-MemberPath<T, V> path_in(V B::*member) {
+template <class T, class B, class M>
+MemberPath<T, M> path_in(M B::*member) {
   static const T object{};
   return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
                                    reinterpret_cast<const std::byte*>(&object))};
 }
-template <class T, class V>
-MemberPath<T, V> path_in(MemberPath<T, V> member) {
+template <class T, class M, class V>
+MemberPath<T, M, V> path_in(MemberPath<T, M, V> member) {
   return member;
 }
 template <class T, class M, class V>
 MemberPath<T, V> path(M T::*outer, V M::*inner) {
   return {path_in<T>(outer).offset + path_in<M>(inner).offset};
 }
-
-/// A member of what a std::optional holds.
 template <class T, class M, class V>
-struct OptionalPath {
-  using Type = V;
-  static constexpr bool kIsOptional = true;
-  std::shared_ptr<const Codec> codec_for(const Value<V>& value) const {
-    return optional_codec(value.codec, kOptionalAccess<M>, inner);
-  }
-  std::size_t offset = 0;  ///< of the std::optional
-  std::size_t inner = 0;
-};
-template <class T, class M, class V>
-OptionalPath<T, M, V> path(std::optional<M> T::*outer, V M::*inner) {
+MemberPath<T, std::optional<M>, V> path(std::optional<M> T::*outer, V M::*inner) {
   return {path_in<T>(outer).offset, path_in<M>(inner).offset};
-}
-template <class T, class M, class V>
-OptionalPath<T, M, V> path_in(OptionalPath<T, M, V> member) {
-  return member;
 }
 
 }  // namespace chaintrue::grid::files

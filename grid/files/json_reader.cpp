@@ -7,58 +7,32 @@
 #include "grid/files/file_type.hpp"
 
 namespace chaintrue::grid::files {
-namespace {
-
-class OptionalCodec : public Codec {
- public:
-  OptionalCodec(std::shared_ptr<const Codec> value, const OptionalAccess& access,
-                std::size_t offset)
-      : Codec(value->expected()), value_(std::move(value)), access_(access), offset_(offset) {}
-  bool read(const Cursor& at, void* member) const override {
-    if (at.json().is_null()) return true;
-    const bool was_empty = access_.value(member) == nullptr;
-    if (was_empty) access_.emplace(member);
-    const bool is_read = value_->read(at, const_cast<std::byte*>(place(member)));
-    if (was_empty && !is_read) access_.reset(member);
-    return is_read;
-  }
-  Json write(const void* member) const override {
-    return access_.value(member) == nullptr ? kLeftOut : value_->write(place(member));
-  }
-
- private:
-  const std::byte* place(const void* member) const {
-    return static_cast<const std::byte*>(access_.value(member)) + offset_;
-  }
-
-  std::shared_ptr<const Codec> value_;
-  OptionalAccess access_;
-  std::size_t offset_;
-};
-
-}  // namespace
-
-class ObjectCodec : public Codec {
- public:
-  ObjectCodec(const RecordTable& record, void (*reset)(void*))
-      : Codec(record.expected()), record_(record), reset_(reset) {}
-  bool read(const Cursor& at, void* value) const override {
-    return record_.read_fields(at, value, false, reset_);
-  }
-  Json write(const void* value) const override { return record_.write_fields(value); }
-
- private:
-  RecordTable record_;
-  void (*reset_)(void*);
-};
-
-std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*)) {
-  return std::make_shared<ObjectCodec>(record, reset);
+SharedCodec object_codec(const RecordTable& record, void (*reset)(void*)) {
+  const auto table = std::make_shared<const RecordTable>(record);
+  return shared_codec(
+      {record.expected(),
+       [=](const Cursor& at, void* object) { return table->read_fields(at, object, false, reset); },
+       [=](const void* object) { return table->write_fields(object); }});
 }
 
-std::shared_ptr<const Codec> optional_codec(std::shared_ptr<const Codec> value,
-                                            const OptionalAccess& access, std::size_t offset) {
-  return std::make_shared<OptionalCodec>(std::move(value), access, offset);
+SharedCodec optional_codec(const SharedCodec& value, const OptionalAccess& access,
+                           std::size_t offset) {
+  const auto place = [=](const void* member) {
+    return static_cast<const std::byte*>(access.value(member)) + offset;
+  };
+  return shared_codec(
+      {value->expected,
+       [=](const Cursor& at, void* member) {
+         if (at.json().is_null()) return true;
+         const bool was_empty = access.value(member) == nullptr;
+         if (was_empty) access.emplace(member);
+         const bool is_read = value->read(at, const_cast<std::byte*>(place(member)));
+         if (was_empty && !is_read) access.reset(member);
+         return is_read;
+       },
+       [=](const void* member) {
+         return access.value(member) == nullptr ? kLeftOut : value->write(place(member));
+       }});
 }
 
 bool RecordTable::open(const Cursor& at, bool is_root) const {
@@ -67,68 +41,51 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
     return false;
   }
   if (format_ == nullptr) return true;
-  const Cursor type = at.child("file_type");
-  if (!at.has("file_type")) {
-    if (is_root) type.missing(fmt::format("\"{}\"", format_->file_type));
-  } else if (type.json() != format_->file_type) {
-    const std::string found = type.json().is_string() ? type.json().get<std::string>() : "";
-    type.expect(fmt::format("\"{}\"{}", format_->file_type, what_takes(found)),
-                ProblemKind::file_kind);
-    return false;
-  }
-  const Cursor version = at.child("format_version");
-  if (!at.has("format_version")) {
-    if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
-  } else if (version.json() != format_->version) {
-    version.expect(fmt::format("\"{}\", the version that this program reads: {}", format_->version,
-                               format_->anew),
-                   ProblemKind::format_version);
-    return false;
-  }
-  return true;
+  const auto is_head = [&](const char* key, std::string_view value, std::string_view otherwise,
+                           ProblemKind kind) {
+    const Cursor own = at.child(key);
+    if (own.json() == value) return true;
+    const std::string expected = fmt::format("\"{}\"", value);
+    if (!at.has(key) && is_root) own.missing(expected);
+    if (at.has(key)) own.expect(fmt::format("{}{}", expected, otherwise), kind);
+    return !at.has(key);
+  };
+  const Json& type = at.child("file_type").json();
+  return is_head("file_type", format_->file_type,
+                 what_takes(type.is_string() ? type.get<std::string>() : ""),
+                 ProblemKind::file_kind) &&
+         is_head("format_version", format_->version,
+                 fmt::format(", the version that this program reads: {}", format_->anew),
+                 ProblemKind::format_version);
 }
 
-RecordTable::Field& RecordTable::add(Field field, std::shared_ptr<const Codec> codec) {
-  field.expected = codec->expected();
-  field.codec = std::move(codec);
+RecordTable::Field& RecordTable::add(Field field, const SharedCodec& codec) {
+  field.expected = codec->expected;
+  field.codec = codec;
   return fields_.emplace_back(std::move(field));
 }
 
-namespace {
-
-Json written_default(const Codec& codec, std::size_t offset, const std::shared_ptr<void>& object) {
-  return codec.write(static_cast<const std::byte*>(object.get()) + offset);
+Json RecordTable::written_default(const Field& field, Make make) {
+  return field.codec->write(static_cast<const std::byte*>(make().get()) + field.offset);
 }
 
-}  // namespace
-
-void RecordTable::state_default(Field& field, Make make) {
-  field.expected.schema = [offset = field.offset, codec = field.codec, make] {
-    return with_default(codec->expected().schema(), written_default(*codec, offset, make()));
+void RecordTable::state_default(Field& field, const Json& value) {
+  field.expected.schema = [schema = field.expected.schema, value] {
+    return with_default(schema(), value);
   };
-}
-
-void RecordTable::leave_out_default(Field& field, Make make) {
-  field.unless = written_default(*field.codec, field.offset, make());
 }
 
 Expected RecordTable::expected() const {
   if (format_ == nullptr) {
-    return {noun(),
+    return {noun_,
             [table = std::make_shared<const RecordTable>(*this)] { return table->schema(); }};
   }
-  return {noun(), [name = name_of(*format_)]() -> Json {
+  return {noun_, [name = name_of(*format_)]() -> Json {
             return {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name)}};
           }};
 }
 
 Json RecordTable::schema() const {
-  Json schema = schema_of_keys();
-  for (const Json& rule : rules_) schema.update(rule);
-  return schema;
-}
-
-Json RecordTable::schema_of_keys() const {
   Json properties = Json::object();
   Json required = Json::array();
   if (format_ != nullptr) {
@@ -146,38 +103,29 @@ Json RecordTable::schema_of_keys() const {
   Json schema = {{"type", "object"}, {"title", noun_}, {"properties", std::move(properties)}};
   if (!required.empty()) schema["required"] = std::move(required);
   schema["additionalProperties"] = false;
+  for (const Json& rule : rules_) schema.update(rule);
   return schema;
 }
 
 std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) const {
   std::vector<std::string> probably_meant;
+  const std::vector<std::string> known = keys();
   for (const auto& [key, value] : at.json().items()) {
     const bool head = format_ != nullptr && (key == "file_type" || key == "format_version");
-    if (head || key == "comment" || has_key(key)) continue;
-    std::vector<std::string> free;
-    for (const Field& field : fields_) {
-      if (!at.has(field.key)) free.push_back(field.key);
-    }
-    std::string expected = fmt::format("a key of {} ({})", noun_, joined(keys()));
+    if (head || key == "comment" || contains(known, key)) continue;
+    std::vector<std::string> free = known;
+    std::erase_if(free, [&](const std::string& own) { return at.has(own); });
+    std::string expected = fmt::format("a key of {} ({})", noun_, joined(known));
     if (const std::string meant = nearest(key, free); !meant.empty()) {
       probably_meant.push_back(meant);
-      expected =
-          fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys()));
+      expected = fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(known));
     }
     at.child(key).report(compact_json(value), ProblemKind::unknown_key, expected);
   }
   return probably_meant;
 }
 
-bool RecordTable::has_key(const std::string& key) const {
-  return any_of(fields_, [&key](const Field& field) { return field.key == key; });
-}
-
-std::vector<std::string> RecordTable::keys() const {
-  std::vector<std::string> keys;
-  for (const Field& field : fields_) keys.push_back(field.key);
-  return keys;
-}
+std::vector<std::string> RecordTable::keys() const { return mapped(fields_, &Field::key); }
 
 bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root,
                               void (*reset)(void*)) const {
@@ -193,7 +141,7 @@ bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root,
     }
     field.codec->read(child, static_cast<std::byte*>(object) + field.offset);
   }
-  for (const Check& check : checks_) check(at, object);
+  for (const auto& check : checks_) check(at, object);
   return true;
 }
 

@@ -24,15 +24,13 @@
 ///     REQUIRED(y_mm, "Commanded y, up.", kCoordinate)
 ///     OPTIONAL(sigma_mm, "1 sigma on each axis.", {"mm", 0, 50});
 ///   }
-///   const Record<Holes>& holes_record() {  // static: each file is read by the same table
-///     static const auto record = [] {
-///       RECORD(Holes, "a chaintrue_holes file", kHolesFormat)
-///       SPARSE(name, "Name in messages.")
-///       REQUIRED(holes, "The holes.", list(hole_record(), 2))
-///           .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
-///             if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
-///           });
-///     }();
+///   const Record<Holes>& holes_record() {
+///     KEPT_RECORD(Holes, "a chaintrue_holes file", kHolesFormat)  // each file is read by the same table
+///     SPARSE(name, "Name in messages.")
+///     REQUIRED(holes, "The holes.", list(hole_record(), 2))
+///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
+///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
+///         });
 ///     return record;
 ///   }
 ///   Holes parse_holes(const std::string& text, const std::string& file) {
@@ -82,7 +80,6 @@ class RecordTable {
  public:
   RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
 
-  const std::string& noun() const { return noun_; }
   /// The schema of an object; for a file's record, a reference to that file's schema.
   Expected expected() const;
   /// Schema of the object itself, also for a file's record.
@@ -95,49 +92,43 @@ class RecordTable {
     bool is_required = false;
     std::size_t offset = 0;  ///< of the member in its object
     Expected expected = "";
-    std::shared_ptr<const Codec> codec{};
+    SharedCodec codec{};
     Json unless = kLeftOut;     ///< a value that counts as none
     Json otherwise = kLeftOut;  ///< what is written for none
   };
-  using Check = std::function<void(const Cursor&, void*)>;
   /// Makes a new default object.
   using Make = std::shared_ptr<void> (*)();
 
   /// Adds to the field what its codec expects.
-  Field& add(Field field, std::shared_ptr<const Codec> codec);
-  Field& last() { return fields_.back(); }
+  Field& add(Field field, const SharedCodec& codec);
+  static Json written_default(const Field& field, Make make);
   /// The default becomes part of the schema.
-  static void state_default(Field& field, Make make);
-  /// The default is not written.
-  static void leave_out_default(Field& field, Make make);
-  void add_check(Check check) { checks_.push_back(std::move(check)); }
-  void add_rule(Json rule) { rules_.push_back(std::move(rule)); }
+  static void state_default(Field& field, const Json& value);
 
-  friend class ObjectCodec;
+  friend SharedCodec object_codec(const RecordTable& record, void (*reset)(void*));
   /// Calls `reset`, unless it is null, as soon as the value is known to be an object.
   bool read_fields(const Cursor& at, void* object, bool is_root,
                    void (*reset)(void*) = nullptr) const;
   Json write_fields(const void* object) const;
+
+  std::vector<Field> fields_;
+  std::vector<std::function<void(const Cursor&, void*)>> checks_;
+  std::vector<Json> rules_;
 
  private:
   /// False, and reported, if this is not an object or is a file of another type or version.
   bool open(const Cursor& at, bool is_root) const;
   /// Reports unknown keys; returns the known keys for which one of them is probably a typing error.
   std::vector<std::string> report_unknown_keys(const Cursor& at) const;
-  bool has_key(const std::string& key) const;
   std::vector<std::string> keys() const;
-  Json schema_of_keys() const;
 
   std::string noun_;
   const Format* format_;
-  std::vector<Field> fields_;
-  std::vector<Check> checks_;
-  std::vector<Json> rules_;
 };
 
 /// `reset` makes a new object of the old before it is read; null keeps it. The codec has the record's
 /// table for itself.
-std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*));
+SharedCodec object_codec(const RecordTable& record, void (*reset)(void*));
 
 template <class T>
 class Record : public RecordTable {
@@ -169,20 +160,21 @@ class Record : public RecordTable {
   template <class M>
   Record& optional(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
     Field& own = add_member(key, meaning, false, member, value);
-    if constexpr (!PathOf<M>::kIsOptional) state_default(own, &make);
+    if constexpr (!PathOf<M>::kIsOptional) state_default(own, written_default(own, &make));
     return *this;
   }
 
   template <class M>
   Record& sparse(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
-    leave_out_default(add_member(key, meaning, false, member, value), &make);
+    Field& own = add_member(key, meaning, false, member, value);
+    own.unless = written_default(own, &make);
     return *this;
   }
 
   template <class M>
   Record& nullable(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
     sparse(key, meaning, member, value);
-    last().otherwise = nullptr;
+    fields_.back().otherwise = nullptr;
     return *this;
   }
 
@@ -259,7 +251,7 @@ class Record : public RecordTable {
 
   /// Runs after the fields, even if some were wrong; see Cursor::clean.
   Record& check(std::function<void(const Cursor&, T&)> check) {
-    add_check([own = std::move(check)](const Cursor& at, void* object) {
+    checks_.push_back([own = std::move(check)](const Cursor& at, void* object) {
       own(at, *static_cast<T*>(object));
     });
     return *this;
@@ -267,7 +259,7 @@ class Record : public RecordTable {
 
   /// Additional rules of the schema: `{"not": {"required": ["machine", "machine_file"]}}`.
   Record& schema_also(Json rule) {
-    add_rule(std::move(rule));
+    rules_.push_back(std::move(rule));
     return *this;
   }
 
@@ -297,20 +289,19 @@ class Record : public RecordTable {
 
 /// A function's table: RECORD begins it, each line that follows adds keys, the last one ends in a
 /// semicolon. A key that has the name of its member is said once; NAMED has both. FIELD is any other
-/// call of a Record, ALSO that of a function that takes the record.
+/// call of a Record, ALSO that of a function that takes the record. KEPT_RECORD makes `record` once.
 #define RECORD(type, ...) \
   using Own = type;       \
   return Record<Own>(__VA_ARGS__)
-#define REQUIRED(member, meaning, ...) \
-  .required(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
-#define OPTIONAL(member, meaning, ...) \
-  .optional(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
-#define SPARSE(member, meaning, ...) \
-  .sparse(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
-#define NULLABLE(member, meaning, ...) \
-  .nullable(#member, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define KEPT_RECORD(type, ...) \
+  using Own = type;            \
+  static const auto record = Record<Own>(__VA_ARGS__)
 #define NAMED(kind, key, member, meaning, ...) \
   .kind(key, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+#define REQUIRED(member, ...) NAMED(required, #member, member, __VA_ARGS__)
+#define OPTIONAL(member, ...) NAMED(optional, #member, member, __VA_ARGS__)
+#define SPARSE(member, ...) NAMED(sparse, #member, member, __VA_ARGS__)
+#define NULLABLE(member, ...) NAMED(nullable, #member, member, __VA_ARGS__)
 #define FIELD(call, ...) .call(__VA_ARGS__)
 #define ALSO(add, ...) .with([&](auto& own) { add(own __VA_OPT__(, ) __VA_ARGS__); })
 

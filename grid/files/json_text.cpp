@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <stdexcept>
-#include <unordered_set>
+#include <iterator>
+#include <set>
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/files/blanks.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/parse_double.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::files {
@@ -24,126 +27,77 @@ constexpr std::size_t kMostMembers = 10'000;
 constexpr std::size_t kLineWidth = 100;
 
 bool is_word_character(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
-         c == '-' || c == '.';
+  return is_letter(c) || is_digit(c) || c == '+' || c == '-' || c == '.';
 }
 
-/// The text with NaN, Infinity, 1e999 and the like in quotes, and the positions of the inserted
-/// quotes.
+/// The text with NaN, Infinity, 1e999 and the like in quotes, and the places of these quotes.
 struct QuotedText {
+  explicit QuotedText(std::string_view source) {
+    bool in_string = false;
+    for (std::size_t begin = 0, end = 0; begin < source.size(); begin = end) {
+      const char c = source[begin];
+      end = begin + (in_string && c == '\\' ? 2 : 1);
+      if (c == '"') in_string = !in_string;
+      const bool is_word = !in_string && is_word_character(c);
+      while (is_word && end < source.size() && is_word_character(source[end])) ++end;
+      const std::string_view part = source.substr(begin, end - begin);
+      const bool is_quoted = is_word && is_beyond_double(part);
+      if (is_quoted) append_all(quotes, std::array{text.size(), text.size() + part.size() + 1});
+      text += is_quoted ? fmt::format("\"{}\"", part) : part;
+    }
+  }
+
+  std::size_t offset_in_source(std::size_t offset) const {
+    return offset -
+           as_size(std::lower_bound(quotes.begin(), quotes.end(), offset) - quotes.begin());
+  }
+
   std::string text;
   std::vector<std::size_t> quotes;
-
-  std::size_t original_offset(std::size_t offset) const {
-    return offset - static_cast<std::size_t>(
-                        std::lower_bound(quotes.begin(), quotes.end(), offset) - quotes.begin());
-  }
 };
-
-QuotedText quote_non_numbers(std::string_view source) {
-  QuotedText quoted;
-  quoted.text.reserve(source.size());
-  bool in_string = false;
-  const auto quote = [&quoted] {
-    quoted.quotes.push_back(quoted.text.size());
-    quoted.text += '"';
-  };
-  for (std::size_t i = 0; i < source.size();) {
-    const char c = source[i];
-    if (in_string || !is_word_character(c)) {
-      const bool escape = in_string && c == '\\' && i + 1 < source.size();
-      if (c == '"') in_string = !in_string;
-      quoted.text += c;
-      if (escape) quoted.text += source[i + 1];
-      i += escape ? 2 : 1;
-      continue;
-    }
-    std::size_t end = i;
-    while (end < source.size() && is_word_character(source[end])) ++end;
-    const std::string_view word = source.substr(i, end - i);
-    const bool quotes_needed = is_beyond_double(word);
-    if (quotes_needed) quote();
-    quoted.text += word;
-    if (quotes_needed) quote();
-    i = end;
-  }
-  return quoted;
-}
 
 /// The likely reason why the text is not JSON, from the characters around the place; empty if none
 /// is recognised.
 std::string likely_error(std::string_view text, std::size_t offset) {
-  const std::string_view rest = text.substr(std::min(offset, text.size()));
-  std::string_view before = text.substr(0, std::min(offset, text.size()));
-  while (!before.empty() &&
-         (before.back() == ' ' || before.back() == '\n' || before.back() == '\r')) {
-    before.remove_suffix(1);
+  const std::string_view rest = text.substr(offset);
+  const std::size_t before = text.substr(0, offset).find_last_not_of(" \r\n");
+  if (before != std::string_view::npos && text[before] == ',') {
+    if (before > 0 && is_word_character(text[before - 1]) && is_digit(rest.front()))
+      return "; a decimal comma? Decimals are written with a point";
+    if (rest.front() == '}' || rest.front() == ']') return "; the comma before it is superfluous";
   }
-  const bool after_comma = !before.empty() && before.back() == ',';
-  if (after_comma && before.size() >= 2 && is_word_character(before[before.size() - 2]) &&
-      !rest.empty() && rest[0] >= '0' && rest[0] <= '9') {
-    return "; a decimal comma? Decimals are written with a point";
-  }
-  if (after_comma && !rest.empty() && (rest[0] == '}' || rest[0] == ']')) {
-    return "; the comma before it is superfluous";
-  }
-  if (rest.substr(0, 2) == "//" || rest.substr(0, 2) == "/*" || rest.substr(0, 1) == "#") {
+  if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#"))
     return R"(; JSON has no comments, use the key "comment")";
-  }
-  if (rest.substr(0, 1) == "'") return "; put text between double quotes";
+  if (rest.starts_with("'")) return "; put text between double quotes";
   return {};
-}
-
-struct Token {
-  std::size_t offset;
-  std::string_view text;
-};
-
-/// The word, text or single character at `offset`.
-Token token_at(std::string_view text, std::size_t offset) {
-  if (offset >= text.size()) return {text.size(), "the end of the text"};
-  std::size_t begin = offset;
-  std::size_t end = offset + 1;
-  if (text[offset] == '"') {
-    const std::size_t opening = offset == 0 ? std::string_view::npos : text.rfind('"', offset - 1);
-    const bool is_on_line =
-        opening != std::string_view::npos &&
-        text.substr(opening, offset - opening).find('\n') == std::string_view::npos;
-    if (is_on_line) begin = opening;
-  } else if (is_word_character(text[offset])) {
-    while (begin > 0 && is_word_character(text[begin - 1])) --begin;
-    while (end < text.size() && is_word_character(text[end])) ++end;
-  }
-  return {begin, text.substr(begin, end - begin)};
 }
 
 /// What the parser expected, from its message.
 std::string expected_by_parser(std::string_view what) {
   constexpr std::string_view kExpected = "; expected ";
   constexpr std::string_view kInvalid = "invalid string: ";
-  if (const std::size_t at = what.rfind(kExpected); at != std::string_view::npos) {
-    return fmt::format("JSON: {} here", what.substr(at + kExpected.size()));
-  }
-  if (const std::size_t at = what.find(kInvalid); at != std::string_view::npos) {
-    const std::string_view reason = what.substr(at + kInvalid.size());
-    return fmt::format("JSON: in a text, {}", reason.substr(0, reason.find("; last read")));
-  }
+  const auto words_from = [what](std::size_t begin) {
+    return what.substr(begin, what.find("; last read", begin) - begin);
+  };
+  if (const std::size_t at = what.rfind(kExpected); at != std::string_view::npos)
+    return fmt::format("JSON: {} here", words_from(at + kExpected.size()));
+  if (const std::size_t at = what.find(kInvalid); at != std::string_view::npos)
+    return fmt::format("JSON: in a text, {}", words_from(at + kInvalid.size()));
   return "JSON";
 }
 
-/// Builds the value from the parser's events; the parser itself does not report keys that occur
-/// twice.
+/// Builds the value from the parser's events; the parser itself loses the first of two equal keys.
 class Builder : public nlohmann::json_sax<Json> {
  public:
-  Builder(const QuotedText& source, std::string_view original, Problems& problems)
-      : source_(source), original_(original), problems_(problems) {}
+  Builder(std::string_view text, const QuotedText& quoted, Problems& problems)
+      : text_(text), quoted_(quoted), problems_(problems) {}
 
-  bool null() override { return add(Json(nullptr)); }
-  bool boolean(bool value) override { return add(Json(value)); }
-  bool number_integer(number_integer_t value) override { return add(Json(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return add(Json(value)); }
-  bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
-  bool string(string_t& value) override { return add(Json(std::move(value))); }
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t&) override { return add(value); }
+  bool string(string_t& value) override { return add(std::move(value)); }
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool start_array(std::size_t) override { return open(Json::array()); }
@@ -151,102 +105,75 @@ class Builder : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
 
   bool key(string_t& value) override {
-    Level& level = open_.back();
-    level.key = value;
-    level.key_stands_twice = !level.keys.insert(value).second;
+    key_ = std::move(value);
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string&,
+  bool parse_error(std::size_t position, const std::string& last_token,
                    const nlohmann::detail::exception& error) override {
     // The parser counts the characters it has read: the last one did not fit, or ended a token that
     // did not.
-    const bool at_end = position > source_.text.size();
-    const Token token =
-        at_end ? Token{original_.size(), "the end of the text"}
-               : token_at(original_,
-                          source_.original_offset(position - std::min<std::size_t>(position, 1)));
-    problems_.add(line_and_column_of(original_, token.offset), token.text, ProblemKind::bad_syntax,
-                  expected_by_parser(error.what()) + likely_error(original_, token.offset));
+    std::size_t begin = quoted_.offset_in_source(std::max<std::size_t>(position, 1) - 1);
+    if (begin >= text_.size()) {
+      refuse(text_.size(), "the end of the text", expected_by_parser(error.what()));
+      return false;
+    }
+    std::size_t end = begin + 1;
+    if (is_word_character(text_[begin])) {
+      while (begin > 0 && is_word_character(text_[begin - 1])) --begin;
+      while (end < text_.size() && is_word_character(text_[end])) ++end;
+    } else if (text_[begin] == '"' && text_.substr(0, end).ends_with(last_token)) {
+      begin = end - last_token.size();
+    }
+    refuse(begin, text_.substr(begin, end - begin),
+           expected_by_parser(error.what()) + likely_error(text_, begin));
     return false;
   }
 
   Json take() { return std::move(root_); }
 
  private:
-  struct Level {
-    Json* value = nullptr;
-    std::string key;
-    bool key_stands_twice = false;
-    std::unordered_set<std::string> keys;
-  };
+  void refuse(std::size_t offset, std::string_view found, std::string expected) {
+    problems_.add(line_and_column_of(text_, offset), found, ProblemKind::bad_syntax,
+                  std::move(expected));
+  }
 
-  /// The place of the value that comes next.
+  /// The place of the last value.
   std::string pointer() const {
     std::string text;
-    for (const Level& level : open_) {
-      text += '/';
-      if (!level.value->is_array()) {
-        text += pointer_token(level.key);
-      } else {
-        // An element that is still open is already in its array.
-        const bool holds_next = &level == &open_.back();
-        text += fmt::format("{}", level.value->size() - (holds_next ? 0 : 1));
-      }
-    }
+    for (const Json* level : open_)
+      text += "/" + (level->is_array() ? fmt::format("{}", level->size() - 1)
+                                       : pointer_token(std::prev(level->end()).key()));
     return text;
   }
 
-  Json* place(Json&& value) {
-    if (open_.empty()) {
-      root_ = std::move(value);
-      return &root_;
-    }
-    Level& level = open_.back();
-    if (level.value->is_array()) {
-      level.value->push_back(std::move(value));
-      return &level.value->back();
-    }
-    if (level.key_stands_twice) {
-      // An object or list is still empty here.
-      problems_.add(pointer(),
-                    value.is_object()  ? "an object"
-                    : value.is_array() ? "a list"
-                                       : compact_json(value),
-                    ProblemKind::repeated_key, "this key only once");
-    }
-    auto& members = level.value->get_ref<Json::object_t&>();
-    // Appends without a search for the key, which would be slow for long objects.
-    members.Container::emplace_back(level.key, std::move(value));
-    return &members.back().second;
-  }
-
-  bool has_room() {
-    const bool is_full = !open_.empty() && open_.back().value->is_object() &&
-                         open_.back().value->size() >= kMostMembers;
-    if (++values_ <= kMostValues && !is_full) return true;
-    problems_.add(pointer(), "more values", ProblemKind::too_many,
-                  is_full ? fmt::format("at most {} members", kMostMembers)
-                          : fmt::format("at most {} values", kMostValues));
+  bool may_have(std::size_t count, std::size_t most, std::string_view what,
+                std::string_view found = "more values") {
+    if (count <= most) return true;
+    problems_.add(pointer(), found, ProblemKind::too_many, "at most {} {}", most, what);
     return false;
   }
 
   bool add(Json&& value) {
-    if (!has_room()) return false;
-    place(std::move(value));
-    return true;
+    std::size_t members = 0;
+    if (open_.empty()) {
+      added_ = &(root_ = std::move(value));
+    } else if (open_.back()->is_array()) {
+      added_ = &open_.back()->emplace_back(std::move(value));
+    } else {
+      auto& object = open_.back()->get_ref<Json::object_t&>();
+      // Appends without a search for the key, which would be slow for long objects.
+      object.Container::emplace_back(std::move(key_), std::move(value));
+      added_ = &object.back().second;
+      members = object.size();
+    }
+    return may_have(members, kMostMembers, "members") && may_have(++values_, kMostValues, "values");
   }
 
   bool open(Json&& value) {
-    if (!has_room()) return false;
-    if (open_.size() == kDeepest) {
-      problems_.add(pointer(), "deeper nesting", ProblemKind::too_many, "at most {} levels",
-                    kDeepest);
+    if (!add(std::move(value)) || !may_have(open_.size() + 1, kDeepest, "levels", "deeper nesting"))
       return false;
-    }
-    Level level;
-    level.value = place(std::move(value));
-    open_.push_back(std::move(level));
+    open_.push_back(added_);
     return true;
   }
 
@@ -255,13 +182,32 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  const QuotedText& source_;
-  std::string_view original_;
+  std::string_view text_;
+  const QuotedText& quoted_;
   Problems& problems_;
   Json root_;
-  std::vector<Level> open_;
+  Json* added_ = nullptr;
+  std::vector<Json*> open_;
+  std::string key_;
   std::size_t values_ = 0;
 };
+
+/// Reports keys that stand twice in an object at this place or below it.
+void report_repeated_keys(const Json& value, const std::string& place, Problems& problems) {
+  std::set<std::string> keys;
+  for (const auto& [key, element] : value.items()) {
+    const bool is_repeated = value.is_object() && !keys.insert(key).second;
+    if (!is_repeated && !element.is_structured()) continue;
+    const std::string own = place + "/" + pointer_token(key);
+    if (is_repeated)
+      problems.add(own,
+                   element.is_object()  ? "an object"
+                   : element.is_array() ? "a list"
+                                        : compact_json(element),
+                   ProblemKind::repeated_key, "this key only once");
+    report_repeated_keys(element, own, problems);
+  }
+}
 
 std::string quoted_text(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -279,32 +225,23 @@ std::string scalar(const Json& value) {
   return value.dump();
 }
 
-void append_compact(const Json& value, std::string& out) {
-  if (!value.is_structured()) {
-    out += scalar(value);
-    return;
-  }
-  const bool object = value.is_object();
-  out += object ? '{' : '[';
-  bool first = true;
-  for (const auto& [key, element] : value.items()) {
-    if (!first) out += ", ";
-    first = false;
-    if (object) out += quoted_text(key) + ": ";
-    append_compact(element, out);
-  }
-  out += object ? '}' : ']';
+std::string label_in(const Json& parent, const std::string& key) {
+  return parent.is_object() ? quoted_text(key) + ": " : "";
+}
+
+std::string in_brackets(const Json& value, const std::string& text) {
+  return value.is_object() ? "{" + text + "}" : "[" + text + "]";
 }
 
 /// Numbers fill their lines; everything else is one value a line.
-void append_wrapped_numbers(const Json& numbers, std::size_t indent, std::string& out) {
-  const std::string margin = "\n" + std::string(indent + 2, ' ');
-  out += '[';
+std::string wrapped_numbers(const Json& numbers, std::size_t indent) {
+  const std::string margin = "\n" + std::string(indent, ' ');
+  std::string out;
   std::size_t column = kLineWidth;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::string text = scalar(numbers[i]) + (i + 1 < numbers.size() ? "," : "");
     if (column + 1 + text.size() > kLineWidth) {
-      out += margin;
+      out += margin + "  ";
       column = indent + 2;
     } else {
       out += ' ';
@@ -313,7 +250,7 @@ void append_wrapped_numbers(const Json& numbers, std::size_t indent, std::string
     out += text;
     column += text.size();
   }
-  out += "\n" + std::string(indent, ' ') + "]";
+  return in_brackets(numbers, out + margin);
 }
 
 bool holds_scalars_only(const Json& value) {
@@ -326,54 +263,54 @@ bool is_a_line(const Json& value, bool in_list, std::size_t used, std::size_t le
          (in_list && value.is_object() && holds_scalars_only(value));
 }
 
-void append_pretty(const Json& value, bool in_list, std::size_t indent, std::size_t used,
-                   std::string& out) {
-  std::string compact;
-  append_compact(value, compact);
-  if (is_a_line(value, in_list, used, compact.size())) {
-    out += compact;
-    return;
-  }
-  if (value.is_array() && all_of(value, [](const Json& v) { return v.is_number(); })) {
-    append_wrapped_numbers(value, indent, out);
-    return;
-  }
-  const bool object = value.is_object();
-  out += object ? '{' : '[';
-  std::size_t left = value.size();
+std::string pretty(const Json& value, bool in_list, std::size_t indent, std::size_t used) {
+  std::string compact = compact_json(value);
+  if (is_a_line(value, in_list, used, compact.size())) return compact;
+  if (value.is_array() && all_of(value, [](const Json& v) { return v.is_number(); }))
+    return wrapped_numbers(value, indent);
+  const std::string margin = "\n" + std::string(indent, ' ');
+  std::vector<std::string> parts;
   for (const auto& [key, element] : value.items()) {
-    const std::string label = object ? quoted_text(key) + ": " : "";
-    out += "\n" + std::string(indent + 2, ' ') + label;
-    append_pretty(element, !object, indent + 2, indent + 3 + label.size(), out);
-    if (--left > 0) out += ',';
+    const std::string label = label_in(value, key);
+    parts.push_back(margin + "  " + label +
+                    pretty(element, value.is_array(), indent + 2, indent + 3 + label.size()));
   }
-  out += "\n" + std::string(indent, ' ') + (object ? "}" : "]");
+  return in_brackets(value, fmt::format("{}{}", fmt::join(parts, ","), margin));
 }
 
 }  // namespace
 
-Json parse_json(const std::string& text, Problems& problems) {
-  if (all_of(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; })) {
+Json parse_head(const std::string& text, Problems& problems) {
+  if (all_of(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }))
     problems.add("", "an empty file", ProblemKind::empty_file, "JSON text");
-    problems.throw_if_any();
-  }
-  const QuotedText source = quote_non_numbers(text);
-  Builder builder(source, text, problems);
-  if (!Json::sax_parse(source.text, &builder)) problems.throw_if_any();
+  const QuotedText quoted(text);
+  Builder builder(text, quoted, problems);
+  if (!problems.any()) Json::sax_parse(quoted.text, &builder);
   return builder.take();
 }
 
-std::string print_json(const Json& value) {
-  std::string out;
-  append_pretty(value, false, 0, 0, out);
-  out += '\n';
-  return out;
+Json parse_json(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  Json root = parse_head(text, problems);
+  problems.throw_if_any();
+  return root;
 }
 
+Json parse_json(const std::string& text, Problems& problems) {
+  Json root = parse_head(text, problems);
+  problems.throw_if_any();
+  report_repeated_keys(root, "", problems);
+  return root;
+}
+
+std::string print_json(const Json& value) { return pretty(value, false, 0, 0) + "\n"; }
+
 std::string compact_json(const Json& value) {
-  std::string out;
-  append_compact(value, out);
-  return out;
+  if (!value.is_structured()) return scalar(value);
+  std::vector<std::string> parts;
+  for (const auto& [key, element] : value.items())
+    parts.push_back(label_in(value, key) + compact_json(element));
+  return in_brackets(value, joined(parts));
 }
 
 std::string pointer_token(std::string_view key) {

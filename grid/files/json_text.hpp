@@ -22,6 +22,11 @@ using Json = nlohmann::ordered_json;
 /// column, for text that is not JSON.
 Json parse_json(const std::string& text, Problems& problems);
 
+/// For a look at a text: keys that occur twice are ignored.
+Json parse_json(const std::string& text, const std::string& file);
+/// What stands before the first error, which is added to `problems`.
+Json parse_head(const std::string& text, Problems& problems);
+
 /// Two blanks per level, lines of at most 100 characters where the values allow, a line break at
 /// the end. \throws std::logic_error where a number is not finite.
 std::string print_json(const Json& value);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "grid/containers.hpp"
 
@@ -19,17 +18,15 @@ std::string_view hint_for_text(std::string_view text) {
   return number_of(text) ? ", without quotes" : "";
 }
 
-/// NaN, Infinity and 1e999 are passed to the fields as texts (json_text.hpp); they are printed as
-/// in the file.
+/// NaN, Infinity and 1e999 reach the fields as texts (json_text.hpp).
 std::string shown(const Json& value) {
-  const bool as_it_stands =
-      value.is_string() && is_beyond_double(value.get_ref<const std::string&>());
-  return as_it_stands ? value.get<std::string>() : compact_json(value);
+  const auto* text = value.get_ptr<const std::string*>();
+  return text != nullptr && is_beyond_double(*text) ? *text : compact_json(value);
 }
 
 std::string quoted_choice(const std::vector<std::string>& names) {
-  std::vector<std::string> quoted;
-  for (const std::string& name : names) quoted.push_back(fmt::format("\"{}\"", name));
+  const auto quoted =
+      mapped(names, [](const std::string& name) { return fmt::format("\"{}\"", name); });
   return quoted.size() == 1 ? quoted[0] : "one of " + joined(quoted);
 }
 
@@ -52,77 +49,21 @@ Expected expected_word(const std::vector<std::string>& names) {
   return {quoted_choice(names), [names] { return Json{{"enum", names}}; }};
 }
 
-std::vector<std::string> words_of(const std::vector<NamedBytes>& names) {
-  std::vector<std::string> words;
-  for (const NamedBytes& known : names) words.push_back(known.name);
-  return words;
+Json number_schema(const Range& range) {
+  // Excludes only meaningless numbers.
+  constexpr double kWiderThanAnyMeaning = 1e9;
+  Json schema = {{"type", "number"}};
+  if (!range.unit.empty()) schema["unit"] = std::string(range.unit);
+  if (range.least > -kWiderThanAnyMeaning) schema["minimum"] = range.least;
+  if (range.most < kWiderThanAnyMeaning) schema["maximum"] = range.most;
+  return schema;
 }
 
-class ChoiceCodec : public Codec {
- public:
-  ChoiceCodec(std::vector<NamedBytes> names, std::size_t size)
-      : Codec(expected_word(words_of(names))), names_(std::move(names)), size_(size) {}
-
-  bool read(const Cursor& at, void* value) const override {
-    const auto word = word_among(at, words_of(names_), expected().words);
-    if (!word) return false;
-    const auto* known =
-        find_where(names_, [&](const NamedBytes& own) { return own.name == *word; });
-    std::memcpy(value, known->value.data(), size_);
-    return true;
-  }
-  Json write(const void* value) const override {
-    for (const NamedBytes& known : names_) {
-      if (std::memcmp(known.value.data(), value, size_) == 0) return known.name;
-    }
-    throw std::logic_error("a JSON writer was given a value without a name");
-  }
-
- private:
-  std::vector<NamedBytes> names_;
-  std::size_t size_;
-};
-
 std::string expected_list(const Codec& element, std::size_t fewest) {
-  const std::string& each = element.expected().words;
+  const std::string& each = element.expected.words;
   if (fewest == 0) return fmt::format("a list, each element {}", each);
   return fmt::format("a list of at least {}, each element {}", fewest, each);
 }
-
-class ListCodec : public Codec {
- public:
-  ListCodec(std::shared_ptr<const Codec> element, const ListAccess& access, std::size_t fewest)
-      : Codec({expected_list(*element, fewest),
-               [element, fewest] { return list_schema(element->expected().schema(), fewest); }}),
-        element_(std::move(element)),
-        access_(access),
-        fewest_(fewest) {}
-
-  bool read(const Cursor& at, void* list) const override {
-    if (!at.json().is_array()) {
-      at.expect(expected().words);
-      return false;
-    }
-    access_.clear(list);
-    const std::size_t count = at.json().size();
-    // An element that was wrong and reported keeps its index, so that later indices are right.
-    for (std::size_t i = 0; i < count; ++i) element_->read(at.element(i), access_.append(list));
-    if (count < fewest_)
-      at.report(fmt::format("{} of them", count), ProblemKind::wrong_count, expected().words);
-    return true;
-  }
-  Json write(const void* list) const override {
-    Json array = Json::array();
-    for (std::size_t i = 0; i < access_.size(list); ++i)
-      array.push_back(element_->write(access_.element(list, i)));
-    return array;
-  }
-
- private:
-  std::shared_ptr<const Codec> element_;
-  ListAccess access_;
-  std::size_t fewest_;
-};
 
 }  // namespace
 
@@ -224,13 +165,30 @@ Value<std::string> one_of(const std::vector<std::string>& names) {
           [](const std::string& value) { return value; }, expected};
 }
 
-std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size) {
-  return std::make_shared<ChoiceCodec>(std::move(names), size);
-}
-
-std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
-                                        const ListAccess& access, std::size_t fewest) {
-  return std::make_shared<ListCodec>(std::move(element), access, fewest);
+SharedCodec list_codec(const SharedCodec& element, const ListAccess& access, std::size_t fewest) {
+  const std::string words = expected_list(*element, fewest);
+  return shared_codec({{words, [=] { return list_schema(element->expected.schema(), fewest); }},
+                       [=](const Cursor& at, void* list) {
+                         if (!at.json().is_array()) {
+                           at.expect(words);
+                           return false;
+                         }
+                         access.clear(list);
+                         const std::size_t count = at.json().size();
+                         // An element that was wrong and reported keeps its index, so that later indices are right.
+                         for (std::size_t i = 0; i < count; ++i)
+                           element->read(at.element(i), access.append(list));
+                         if (count < fewest)
+                           at.report(fmt::format("{} of them", count), ProblemKind::wrong_count,
+                                     words);
+                         return true;
+                       },
+                       [=](const void* list) {
+                         Json array = Json::array();
+                         for (std::size_t i = 0; i < access.size(list); ++i)
+                           array.push_back(element->write(access.element(list, i)));
+                         return array;
+                       }});
 }
 
 Json dictionary_schema(const Json& element) {
@@ -266,16 +224,6 @@ Json with_default(Json schema, const Json& value) {
   const bool says_something = schema.contains("enum") || value.is_number() || value.is_boolean() ||
                               (value.is_array() && !value.empty());
   if (says_something) schema["default"] = value;
-  return schema;
-}
-
-Json number_schema(const Range& range) {
-  // Excludes only meaningless numbers.
-  constexpr double kWiderThanAnyMeaning = 1e9;
-  Json schema = {{"type", "number"}};
-  if (!range.unit.empty()) schema["unit"] = std::string(range.unit);
-  if (range.least > -kWiderThanAnyMeaning) schema["minimum"] = range.least;
-  if (range.most < kWiderThanAnyMeaning) schema["maximum"] = range.most;
   return schema;
 }
 

@@ -5,20 +5,20 @@
 /// Private to grid/files.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/files/number_text.hpp"
 
@@ -32,13 +32,15 @@ class Cursor {
 
   const Json& json() const { return *json_; }
   std::string pointer() const;
-  [[nodiscard]] Problems& problems() const { return *problems_; }
+  Problems& problems() const { return *problems_; }
   /// The whole document.
   const Json& root() const { return parent_ == nullptr ? *json_ : parent_->root(); }
   /// A key that is absent reads as null.
   Cursor child(std::string_view key) const;
   Cursor element(std::size_t index) const;
   bool has(std::string_view key) const;
+  /// It is absent, too.
+  bool is_null(std::string_view key) const { return child(key).json().is_null(); }
   /// Nothing was reported here or below so far.
   bool clean() const { return !problems_->any() || !problems_->at_or_below(pointer()); }
 
@@ -77,44 +79,19 @@ struct Expected {
   std::function<Json()> schema = [] { return Json::object(); };
 };
 
-/// Reads values of one type into memory and writes them from it. Tables of formats hold codecs, so that
-/// their own code is compiled once and not once for each type.
-class Codec {
- public:
-  explicit Codec(Expected expected) : expected_(std::move(expected)) {}
-  virtual ~Codec() = default;
-  Codec(const Codec&) = delete;
-  Codec& operator=(const Codec&) = delete;
-
-  const Expected& expected() const { return expected_; }
-  /// False, and reported, if the value is wrong; the memory is then unchanged.
-  virtual bool read(const Cursor& at, void* value) const = 0;
-  /// A discarded value omits a field's key.
-  virtual Json write(const void* value) const = 0;
-
- private:
-  Expected expected_;
-};
-
 inline const Json kLeftOut(Json::value_t::discarded);
 
-/// A codec of two functions: `read` is false where nothing could be read.
-template <class V>
-class FunctionCodec : public Codec {
- public:
-  using Read = std::function<bool(const Cursor&, V&)>;
-  using Write = std::function<Json(const V&)>;
-  FunctionCodec(Expected expected, Read read, Write write)
-      : Codec(std::move(expected)), read_(std::move(read)), write_(std::move(write)) {}
-  bool read(const Cursor& at, void* value) const override {
-    return read_(at, *static_cast<V*>(value));
-  }
-  Json write(const void* value) const override { return write_(*static_cast<const V*>(value)); }
-
- private:
-  Read read_;
-  Write write_;
+/// Reads values of one type into memory and writes them from it. Tables of formats hold codecs, so that
+/// their own code is compiled once and not once for each type.
+struct Codec {
+  Expected expected;
+  /// False, and reported, if the value is wrong; the memory is then unchanged.
+  std::function<bool(const Cursor&, void*)> read;
+  /// A discarded value omits a field's key.
+  std::function<Json(const void*)> write;
 };
+using SharedCodec = std::shared_ptr<const Codec>;
+inline SharedCodec shared_codec(Codec codec) { return std::make_shared<Codec>(std::move(codec)); }
 
 template <class V>
 struct Value;
@@ -132,19 +109,19 @@ struct Value {
       requires std::is_same_v<V, double> : Value(number(range)) {}
   Value(std::string_view unit, double least, double most) requires std::is_same_v<V, double>
       : Value(number({unit, least, most})) {}
-  explicit Value(std::shared_ptr<const Codec> own)
-      : codec(std::move(own)), expected(codec->expected()) {}
+  explicit Value(SharedCodec own) : codec(std::move(own)), expected(codec->expected) {}
   /// `read` returns the whole value, or nothing.
-  Value(std::function<std::optional<V>(const Cursor&)> read, typename FunctionCodec<V>::Write write,
+  Value(std::function<std::optional<V>(const Cursor&)> read, std::function<Json(const V&)> write,
         Expected in_words)
-      : Value(std::make_shared<FunctionCodec<V>>(
-            std::move(in_words),
-            [own = std::move(read)](const Cursor& at, V& value) {
-              std::optional<V> result = own(at);
-              if (result) value = std::move(*result);
-              return result.has_value();
-            },
-            std::move(write))) {}
+      : Value(shared_codec({std::move(in_words),
+                            [own = std::move(read)](const Cursor& at, void* value) {
+                              std::optional<V> result = own(at);
+                              if (result) *static_cast<V*>(value) = std::move(*result);
+                              return result.has_value();
+                            },
+                            [own = std::move(write)](const void* value) {
+                              return own(*static_cast<const V*>(value));
+                            }})) {}
 
   std::optional<V> read(const Cursor& at) const {
     V value{};
@@ -152,21 +129,22 @@ struct Value {
   }
   Json write(const V& value) const { return codec->write(&value); }
 
-  std::shared_ptr<const Codec> codec;
+  SharedCodec codec;
   Expected expected;
 };
 
 /// A value that sets some members of an object and leaves the others as they are.
 template <class T>
 Value<T> partial(Expected expected, std::function<void(const Cursor&, T&)> read,
-                 typename FunctionCodec<T>::Write write) {
-  return Value<T>(std::make_shared<FunctionCodec<T>>(
-      std::move(expected),
-      [own = std::move(read)](const Cursor& at, T& object) {
-        own(at, object);
-        return true;
-      },
-      std::move(write)));
+                 std::function<Json(const T&)> write) {
+  return Value<T>(shared_codec({std::move(expected),
+                                [own = std::move(read)](const Cursor& at, void* object) {
+                                  own(at, *static_cast<T*>(object));
+                                  return true;
+                                },
+                                [own = std::move(write)](const void* object) {
+                                  return own(*static_cast<const T*>(object));
+                                }}));
 }
 
 /// A value that is kept as another type: `to` makes it of what was read without a problem, `back`
@@ -203,27 +181,25 @@ Value<V> value_of_type() {
 /// `schema` with that default if it is a number, a choice, a boolean or a non-empty list of these.
 /// Texts have no default.
 [[nodiscard]] Json with_default(Json schema, const Json& value);
-/// Schema of a number in its range.
-Json number_schema(const Range& range);
 
 Value<int> integer(int least, int most);
 Value<std::string> one_of(const std::vector<std::string>& names);
 
-/// A named value of a trivially copyable type of at most eight bytes.
-struct NamedBytes {
-  std::string name;
-  std::array<std::byte, 8> value{};
-};
-std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size);
-
 /// A value by its name, such as an enum.
 template <class E>
 Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
-  static_assert(std::is_trivially_copyable_v<E> && sizeof(E) <= sizeof(NamedBytes::value));
-  std::vector<NamedBytes> all;
-  for (const auto& [name, value] : names)
-    std::memcpy(all.emplace_back(NamedBytes{name}).value.data(), &value, sizeof(E));
-  return Value<E>(choice_codec(std::move(all), sizeof(E)));
+  using Named = std::pair<std::string, E>;
+  return converted<E>(
+      one_of(mapped(names, &Named::first)),
+      [names](const std::string& word) {
+        return find_where(names, having(&Named::first, word))->second;
+      },
+      [names](const E& value) {
+        const auto* known = find_where(names, having(&Named::second, value));
+        if (known == nullptr)
+          throw std::logic_error("a JSON writer was given a value without a name");
+        return known->first;
+      });
 }
 
 /// As above, of a list or a table of grid/files/names.hpp.
@@ -263,8 +239,7 @@ inline constexpr ListAccess kListAccess = {
     [](const void* list, std::size_t index) -> const void* {
       return static_cast<const std::vector<V>*>(list)->data() + index;
     }};
-std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
-                                        const ListAccess& access, std::size_t fewest);
+SharedCodec list_codec(const SharedCodec& element, const ListAccess& access, std::size_t fewest);
 
 /// Schema of a list of such elements.
 Json list_schema(const Json& element, std::size_t fewest);

@@ -304,8 +304,7 @@ tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(const LengthMap& 
   const auto bend = largest_bend(*table, straight);
   if (!bend) return tl::unexpected(MapReason::unreachable);
   const double piece_mm = piece_for(*bend);
-  return KlipperKinematics{module_of(*table, klipper_source(*table, straight, piece_mm, name)),
-                           piece_mm};
+  return KlipperKinematics{{*table, klipper_source(*table, straight, piece_mm, name)}, piece_mm};
 }
 
 }  // namespace chaintrue::grid::files

@@ -72,20 +72,16 @@ tl::expected<double, MapFailure> largest_error(const LengthMap& map, const Lengt
 
 }  // namespace
 
-double LengthTable::spacing_mm() const { return std::max(step_x(), step_y()); }
-
 double LengthTable::node(int row, int column, std::size_t side) const {
-  const auto beyond = [](double a, double b, double c) { return 3.0 * a - 3.0 * b + c; };
-  if (column < 0) return beyond(node(row, 0, side), node(row, 1, side), node(row, 2, side));
-  if (column >= columns) {
-    return beyond(node(row, columns - 1, side), node(row, columns - 2, side),
-                  node(row, columns - 3, side));
-  }
-  if (row < 0) return beyond(node(0, column, side), node(1, column, side), node(2, column, side));
-  if (row >= rows) {
-    return beyond(node(rows - 1, column, side), node(rows - 2, column, side),
-                  node(rows - 3, column, side));
-  }
+  // Beyond an edge, from the three nodes next to it.
+  const auto beyond = [&](int up, int right) {
+    const auto inner = [&](int k) { return node(row + k * up, column + k * right, side); };
+    return 3.0 * inner(1) - 3.0 * inner(2) + inner(3);
+  };
+  if (column < 0) return beyond(0, 1);
+  if (column >= columns) return beyond(0, -1);
+  if (row < 0) return beyond(1, 0);
+  if (row >= rows) return beyond(-1, 0);
   return nodes[as_size(row) * as_size(columns) + as_size(column)][side];
 }
 
@@ -103,10 +99,6 @@ std::string LengthTable::nodes_as_text(std::string_view open, std::string_view c
     text += fmt::format("{},\n", close);
   }
   return text;
-}
-
-TableModule module_of(const LengthTable& table, std::string source) {
-  return {std::move(source), table.columns, table.rows, table.spacing_mm(), table.largest_error_mm};
 }
 
 tl::expected<LengthTable, MapFailure> length_table(const LengthMap& map) {

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -43,7 +44,7 @@ struct LengthTable {
   double x(double column) const { return area.x_min + column * step_x(); }
   double y(double row) const { return area.y_min + row * step_y(); }
   /// The larger distance of neighbours.
-  double spacing_mm() const;
+  double spacing_mm() const { return std::max(step_x(), step_y()); }
   /// side: 0 left, 1 right. One row or column beyond an edge it is continued (Keys, eq. 25).
   double node(int row, int column, std::size_t side) const;
   /// All nodes as text, four to a line; each row and each node is between `open` and `close`.
@@ -51,21 +52,15 @@ struct LengthTable {
 };
 
 /// A kinematics module that interpolates in a table.
-struct TableModule {
+struct TableModule : LengthTable {
   std::string source;
-  int columns = 0;
-  int rows = 0;
-  double spacing_mm = 0.0;        ///< the larger of both
-  double largest_error_mm = 0.0;  ///< as the table's
 };
-TableModule module_of(const LengthTable& table, std::string source);
 
 /// The text with the table's {columns}, {rows}, {x}, {y}, {step_x} and {step_y}, the {module}'s name
 /// and, for a comment, the map's {name}, and whatever `more` names.
 template <class... More>
-[[nodiscard]] std::string with_table(std::string_view text, const LengthTable& table,
-                                     const std::string& module, std::string name,
-                                     const More&... more) {
+std::string with_table(std::string_view text, const LengthTable& table, const std::string& module,
+                       std::string name, const More&... more) {
   for (char& c : name) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   return fmt::format(fmt::runtime(text), fmt::arg("name", name), fmt::arg("module", module),
                      fmt::arg("columns", table.columns), fmt::arg("rows", table.rows),

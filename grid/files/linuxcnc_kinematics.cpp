@@ -190,7 +190,7 @@ tl::expected<TableModule, MapFailure> linuxcnc_kinematics(const LengthMap& map,
                                                           const LinuxcncNames& names) {
   const auto table = length_table(map);
   if (!table) return tl::unexpected(table.error());
-  return module_of(*table, linuxcnc_source(*table, names));
+  return TableModule{*table, linuxcnc_source(*table, names)};
 }
 
 }  // namespace chaintrue::grid::files

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "grid/files/problems.hpp"
+#include "grid/input_checks/number_checks.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid::files {
@@ -23,15 +24,11 @@ void refuse_foreign_settings(std::string_view text, Problems& problems);
 
 // The actual unit of a file whose lengths are all too small, inferred from its bed.
 
-struct OtherUnit {
-  const char* word;
-  double mm;
-};
 /// A bed of 4 to 12 feet is 48 to 144 inches wide, or 122 to 366 centimetres; the smaller of two
 /// beds that are as wide in both is taken for one in inches.
-inline OtherUnit other_unit(double bed_width) {
+inline input_checks::WrittenUnit other_unit(double bed_width) {
   constexpr double kWidestInInches = 145.0;
-  return bed_width <= kWidestInInches ? OtherUnit{"inches", 25.4} : OtherUnit{"centimetres", 10.0};
+  return input_checks::kWrittenUnits[bed_width <= kWidestInInches ? 0 : 1];
 }
 /// The widest bed in centimetres, and one that remains half a metre in mm.
 inline constexpr double kWidestOfOtherUnit = 370.0;

@@ -125,8 +125,7 @@ auto uncertainty_record() {
   OPTIONAL(ring_radius_mm, "Uncertainty of the ring's radius, 1 sigma.", kMillimetres)
       .check([](const Cursor& at, Uncertainty&) {
         for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
-          const Cursor value = at.child(key);
-          if (!at.has(key) || value.json().is_null()) value.warn("missing; its default is assumed");
+          if (at.is_null(key)) at.child(key).warn("missing; its default is assumed");
         }
       });
 }
@@ -158,7 +157,7 @@ bool is_in_other_unit(const Machine& machine) {
 void check_machine(const Cursor& at, Machine& machine) {
   // The struct's default name does not apply to this file's machine.
   if (!at.has("name")) machine.name.clear();
-  if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
+  if (at.is_null("uncertainty")) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
         .warn(fmt::format("missing; assumed: motor positions within {} mm, chain zeros within {} "
@@ -167,7 +166,7 @@ void check_machine(const Cursor& at, Machine& machine) {
                           assumed.ring_radius_mm));
   }
   if (is_in_other_unit(machine)) {
-    const OtherUnit unit = other_unit(machine.bed.width_mm);
+    const auto unit = other_unit(machine.bed.width_mm);
     const auto size = [](double width, double height) {
       return fmt::format("{:.6g} x {:.6g}", width, height);
     };
@@ -227,33 +226,31 @@ Record<model::AppliedEffect> effect_record() {
 }
 
 const Record<Machine>& machine_record() {
-  static const auto record = [] {
-    RECORD(Machine, "a machine", kMachineFormat)
-    OPTIONAL(name, "Name of the machine in messages and pages.")
-    REQUIRED(bed, "The sheet that the machine can cut.", bed_record())
-    REQUIRED(motors, "Positions of the motors' axes.", motors_record())
-    REQUIRED(sprocket, "The sprocket on a motor.", sprocket_record())
-    REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
-    REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
-    REQUIRED(chain, "The chain's mass and stretch.", chain_record())
-    OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())
-    REQUIRED(sled, "The sled.", sled_record())
-    REQUIRED(frame, "The frame that carries everything.", frame_record())
-    OPTIONAL(uncertainty,
-             "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
-             "are assumed and reported.",
-             uncertainty_record())
-    SPARSE(controller,
-           "The firmware and its settings; default: an ideal one that uses the machine file as "
-           "it is.",
-           controller_record())
-    NAMED(sparse, "declared_effects", declared,
-          "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
-          "file.",
-          declared_value())
-    SPARSE(effects, "Known causes of error, part of the machine.", effect_record())
-        .check(check_machine);
-  }();
+  KEPT_RECORD(Machine, "a machine", kMachineFormat)
+  OPTIONAL(name, "Name of the machine in messages and pages.")
+  REQUIRED(bed, "The sheet that the machine can cut.", bed_record())
+  REQUIRED(motors, "Positions of the motors' axes.", motors_record())
+  REQUIRED(sprocket, "The sprocket on a motor.", sprocket_record())
+  REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
+  REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
+  REQUIRED(chain, "The chain's mass and stretch.", chain_record())
+  OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())
+  REQUIRED(sled, "The sled.", sled_record())
+  REQUIRED(frame, "The frame that carries everything.", frame_record())
+  OPTIONAL(uncertainty,
+           "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
+           "are assumed and reported.",
+           uncertainty_record())
+  SPARSE(controller,
+         "The firmware and its settings; default: an ideal one that uses the machine file as "
+         "it is.",
+         controller_record())
+  NAMED(sparse, "declared_effects", declared,
+        "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
+        "file.",
+        declared_value())
+  SPARSE(effects, "Known causes of error, part of the machine.", effect_record())
+      .check(check_machine);
   return record;
 }
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/map_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <vector>
-
-#include "grid/containers.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/ranges.hpp"
@@ -106,11 +100,10 @@ auto distances_record() {
 }
 
 void check_map(const Cursor& at, MapContents& map) {
-  const auto stands = [&at](std::string_view key) { return !at.child(key).json().is_null(); };
-  if (stands("on_machine") == stands("direct")) {
+  if (at.is_null("on_machine") == at.is_null("direct")) {
     at.expect("either \"on_machine\" or \"direct\", the two kinds of surface, and not both");
   }
-  if (stands("direct") && map.outside.way == Outside::fade) {
+  if (!at.is_null("direct") && map.outside.way == Outside::fade) {
     at.child("outside").child("way").expect(
         "a different value: without a machine there is no value where a surface fades out");
   }
@@ -124,31 +117,29 @@ void check_map(const Cursor& at, MapContents& map) {
 }
 
 const Record<MapContents>& map_record() {
-  static const auto record = [] {
-    RECORD(MapContents, "a chaintrue_map file", kMapFormat)
-    OPTIONAL(name, "Name of the grid.")
-    ALSO(add_surface)
-    NAMED(required, "domain_mm", domain, "Where the map can be evaluated.", rectangle_record())
-    REQUIRED(hull, "Corners of the measured part, counter-clockwise.", list(mark_record(), 3))
-    REQUIRED(edge_mm, "Places closer to the hull than this count as on its edge.", kNotNegative)
-    SPARSE(outside, "Behaviour outside the hull.", outside_record())
-    SPARSE(sigma_factor_beyond,
-           "Factor on sigmas outside the measured part if causes were found, so that the larger "
-           "error "
-           "of the plain map applies there.",
-           kSigmaFactor)
-    REQUIRED(noise, "The noise used by the fit.", map_noise_record())
-    REQUIRED(accuracy, "The map's own error.", accuracy_record())
-    REQUIRED(settings, "The machine's numbers, as in its file and calibrated.", setting_record())
-    REQUIRED(points, "The points that the map was made from.", map_point_record())
-    OPTIONAL(mirror, "Whether one chain's surface is the other's, mirrored.", mirror_record())
-    OPTIONAL(distances, "For a map from holes and a tape.", distances_record())
-    REQUIRED(notes, "Notes for the reader, in sentences.")
-    ALSO(add_made_by_key)
-    ALSO(add_content_hash, "Hash of everything else; an edited map is refused.")
-        .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
-        .check(check_map);
-  }();
+  KEPT_RECORD(MapContents, "a chaintrue_map file", kMapFormat)
+  OPTIONAL(name, "Name of the grid.")
+  ALSO(add_surface)
+  NAMED(required, "domain_mm", domain, "Where the map can be evaluated.", rectangle_record())
+  REQUIRED(hull, "Corners of the measured part, counter-clockwise.", list(mark_record(), 3))
+  REQUIRED(edge_mm, "Places closer to the hull than this count as on its edge.", kNotNegative)
+  SPARSE(outside, "Behaviour outside the hull.", outside_record())
+  SPARSE(sigma_factor_beyond,
+         "Factor on sigmas outside the measured part if causes were found, so that the larger "
+         "error "
+         "of the plain map applies there.",
+         kSigmaFactor)
+  REQUIRED(noise, "The noise used by the fit.", map_noise_record())
+  REQUIRED(accuracy, "The map's own error.", accuracy_record())
+  REQUIRED(settings, "The machine's numbers, as in its file and calibrated.", setting_record())
+  REQUIRED(points, "The points that the map was made from.", map_point_record())
+  OPTIONAL(mirror, "Whether one chain's surface is the other's, mirrored.", mirror_record())
+  OPTIONAL(distances, "For a map from holes and a tape.", distances_record())
+  REQUIRED(notes, "Notes for the reader, in sentences.")
+  ALSO(add_made_by_key)
+  ALSO(add_content_hash, "Hash of everything else; an edited map is refused.")
+      .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
+      .check(check_map);
   return record;
 }
 

@@ -19,6 +19,15 @@ namespace {
 constexpr std::size_t kMostNames = 20'000;
 constexpr std::size_t kMostConditions = 100;
 
+/// Empty if the file does not state it.
+using Truth = std::optional<bool>;
+
+Truth negated(Truth a) { return a ? Truth(!*a) : a; }
+Truth both_hold(Truth a, Truth b) {
+  if (a == Truth(false) || b == Truth(false)) return false;
+  return a && b ? Truth(true) : std::nullopt;
+}
+
 class Defines {
  public:
   Defines(const std::string& text, Problems& problems) : problems_(problems) {
@@ -88,7 +97,7 @@ class Defines {
       Branch& own = branches_.back();
       own.holds =
           both_hold(negated(own.held), directive == "else" ? Truth(true) : condition(code.rest));
-      own.held = one_holds(own.held, own.holds);
+      own.held = negated(both_hold(negated(own.held), negated(own.holds)));
     } else if (directive == "define" || directive == "undef") {
       const std::string name = code.word();
       define(name, {std::string(trimmed(code.rest)), place}, directive == "undef");
@@ -113,15 +122,20 @@ class Defines {
     const auto own = defined_.find(name);
     return own != defined_.end() && !own->second.in_force.empty();
   }
-  Truth condition(std::string_view text) const {
-    return truth_of(
-        text,
+  FormulaValue value_of(std::string_view formula) const {
+    return value_of_formula(
+        formula,
         [this](const std::string& name) {
           if (!is_defined(name)) return false;
           const std::string& value = defined_.at(name).in_force.back().text;
           return value.empty() || value == "1" || value == "true";
         },
         [this](const std::string& name) { return is_defined(name); });
+  }
+
+  Truth condition(std::string_view text) const {
+    const double value = value_of(text).value;
+    return std::isnan(value) ? std::nullopt : Truth(value != 0.0);
   }
 
   /// Null if it is not defined or has been reported.
@@ -165,7 +179,7 @@ class Defines {
   /// The formula's value as text; reported if it is not a number.
   void evaluate(std::string_view formula, const std::string& name, const std::string& key,
                 const SettingText& own, SettingTexts& texts) {
-    const auto [value, cut] = value_of_formula(formula);
+    const auto [value, cut] = value_of(formula);
     if (std::isfinite(value) && !cut) {
       texts[key] = {fmt::format("{}", value), own.place};
       return;
@@ -198,8 +212,7 @@ std::string without_comments(std::string_view text) {
       continue;
     }
     const std::size_t end = std::min(text.find(is_block ? "*/" : "\n", i + 2), text.size());
-    code.append(as_size(std::count(text.begin() + as_index(i), text.begin() + as_index(end), '\n')),
-                '\n');
+    code.append(count_equal(text.substr(i, end - i), '\n'), '\n');
     i = is_block ? std::min(end + 2, text.size()) : end;
   }
   return code;

@@ -3,26 +3,23 @@
 /// Conditions and formulas of C, as far as Marlin's Configuration.h has them. Private to grid/files.
 #pragma once
 
-#include <cctype>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "grid/files/blanks.hpp"
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::grid::files {
 
 /// No formula of a Configuration.h is longer, once its names are replaced.
 inline constexpr std::size_t kLongestFormula = 500;
 
-inline bool is_of_a_name(char c) {
-  return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
-}
-inline bool begins_a_number(char c) {
-  return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
+inline bool is_of_a_name(char c) { return c == '_' || is_letter(c) || is_digit(c); }
+inline bool begins_a_number(char c) { return c == '.' || is_digit(c); }
 
 /// Words and signs, one after another.
 struct CodeReader {
@@ -45,24 +42,14 @@ struct CodeReader {
   bool is_at_end() const { return trimmed(rest).empty(); }
 };
 
-/// Empty if the file does not state it.
-using Truth = std::optional<bool>;
-
-inline Truth negated(Truth a) { return a ? Truth(!*a) : a; }
-inline Truth both_hold(Truth a, Truth b) {
-  if (a == Truth(false) || b == Truth(false)) return false;
-  return a && b ? Truth(true) : std::nullopt;
-}
-inline Truth one_holds(Truth a, Truth b) { return negated(both_hold(negated(a), negated(b))); }
-
-/// Evaluates the condition of an #if.
-Truth truth_of(std::string_view condition, std::function<bool(const std::string& name)> is_enabled,
-               std::function<bool(const std::string& name)> is_defined);
-
+/// The value of a formula or of the condition of an #if, in which 1 is true and 0 is false.
 struct FormulaValue {
-  double value = 0.0;         ///< NaN if the text is not a formula
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< if the text is neither
   std::optional<double> cut;  ///< a quotient of whole numbers that is not whole
 };
-FormulaValue value_of_formula(std::string_view text);
+/// Whether a name is so.
+using AskedName = std::function<bool(const std::string& name)>;
+FormulaValue value_of_formula(std::string_view text, const AskedName& is_enabled,
+                              const AskedName& is_defined);
 
 }  // namespace chaintrue::grid::files

@@ -61,13 +61,9 @@ std::string where(const RunStopped& stopped) {
 
 /// The evidence of the single readings and its cause; empty if there are none.
 std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
-  Belt worst = Belt::tl;
-  int apart = 0;
-  for (const Belt belt : kBelts) {
-    if (spread(stopped.readings_mm[belt]) > spread(stopped.readings_mm[worst])) worst = belt;
-    if (spread(stopped.readings_mm[belt]) > kReadingsAgreeMm) ++apart;
-  }
-  const double most_mm = spread(stopped.readings_mm[worst]);
+  const auto spread_of = [&](Belt belt) { return spread(stopped.readings_mm[belt]); };
+  const Belt worst = *max_element(kBelts, ascending(spread_of));
+  const double most_mm = spread_of(worst);
   if (most_mm <= 0.0) return "";
   const std::string text =
       fmt::format(" At waypoint {} the readings of the {} belt are {:.1f} mm apart",
@@ -78,6 +74,8 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
         "retract that belt, extend it again and measure again.",
         text, turns_in_words(turns));
   }
+  const std::size_t apart =
+      count_where(kBelts, [&](Belt belt) { return spread_of(belt) > kReadingsAgreeMm; });
   if (apart > 1) {
     return fmt::format(
         "{}, and {} belts have inconsistent readings. Possible causes: a sled that still swings, a "
@@ -103,13 +101,9 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
         "the wrong order. Correct this and measure again.",
         grid::words_of(*found->swapped));
   }
-  Belt worst = Belt::tl;
-  int far = 0;
-  for (const Belt belt : kBelts) {
-    const auto off = [&](Belt b) { return std::abs(found->median_mm[b]); };
-    if (off(belt) > off(worst)) worst = belt;
-    if (off(belt) > kFarMm) ++far;
-  }
+  const auto off = [&](Belt belt) { return std::abs(found->median_mm[belt]); };
+  const Belt worst = *max_element(kBelts, ascending(off));
+  const std::size_t far = count_where(kBelts, [&](Belt belt) { return off(belt) > kFarMm; });
   if (far != 1) return "";
   const double excess_mm = found->median_mm[worst];
   const int turns = whole_turns(excess_mm, belts.machine.belt_turn_mm, kWholeTurnOfCommandsMm);
@@ -151,7 +145,7 @@ constexpr std::string_view kByKind[] = {
     " Read the machine's message there, and start again.",
     " Either the run was stopped there or the text was cut off when it was copied: paste "
     "it again from beginning to end, or continue measuring."};
-static_assert(std::size(kByKind) == static_cast<std::size_t>(StopKind::log_ends) + 1);
+static_assert(std::size(kByKind) == as_size(StopKind::log_ends) + 1);
 
 }  // namespace
 
@@ -200,7 +194,7 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   text += ".";
   const std::string found =
       shown_by_readings(stopped, belts.machine.belt_turn_mm) + shown_by_commands(belts);
-  text += found.empty() ? std::string(kByKind[static_cast<std::size_t>(stopped.kind)]) : found;
+  text += found.empty() ? std::string(kByKind[as_size(stopped.kind)]) : found;
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {
     text +=

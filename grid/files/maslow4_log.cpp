@@ -56,21 +56,17 @@ void choose_lengths(const Maslow4Options& options, bool is_list, model::BeltMach
 }  // namespace
 
 std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option) {
-  constexpr int kMost = 1000000;
-  std::vector<LogPart> parts;
-  for (const std::string& part : parts_at_commas(text)) {
-    const auto points = pair_of(part, ':', 0, kMost);
-    if (points && (*points)[0] <= (*points)[1]) {
-      parts.push_back({.points = PointRange{as_size((*points)[0]), as_size((*points)[1])}});
-    } else if (const auto run = whole_number_of(part, 1, kMost)) {
-      parts.push_back({.run = run});
-    } else {
-      refuse("the command line", option, shortened(text),
-             "runs, counted from 1, as in 1,2; or first and last point, counted from "
-             "0, as in 0:98");
-    }
-  }
-  return parts;
+  return list_of_option(
+      text, option,
+      "runs, counted from 1, as in 1,2; or first and last point, counted from 0, as in 0:98",
+      [](const std::string& part) -> std::optional<LogPart> {
+        constexpr int kMost = 1000000;
+        const auto points = pair_of(part, ':', 0, kMost);
+        if (points && (*points)[0] <= (*points)[1])
+          return LogPart{.points = PointRange{as_size((*points)[0]), as_size((*points)[1])}};
+        const auto run = whole_number_of(part, 1, kMost);
+        return run ? std::optional(LogPart{.run = run}) : std::nullopt;
+      });
 }
 
 namespace {
@@ -100,13 +96,11 @@ void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Pr
 PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs, PointRange wanted,
                         Maslow4Import& result, Problems& problems) {
   PlacesOfLog places;
-  bool is_first = true;
   std::vector<std::pair<std::size_t, PointRange>> parts;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PointRange own = result.runs[i].points;
     if (own.last < wanted.first || own.first > wanted.last) continue;
-    if (is_first) result.taken = i;
-    is_first = false;
+    if (parts.empty()) result.taken = i;
     const PointRange within{std::max(own.first, wanted.first) - own.first,
                             std::min(own.last, wanted.last) - own.first};
     take_places(runs[i], within, result.belts.machine.orientation, places);

@@ -42,7 +42,7 @@ class Settings {
   }
 
   SettingReader& reader() { return reader_; }
-  [[nodiscard]] Problems& problems() { return problems_; }
+  Problems& problems() { return problems_; }
 
  private:
   Problems problems_;
@@ -130,11 +130,7 @@ void take_machine(const Maslow4Options& options, Maslow4Import& result, Problems
   result.settings_pull = settings_pull(settings);
   settings.reader().warn_of_others("describes the anchors of the belts");
   problems.add_warnings(settings.problems().warnings());
-  try {
-    settings.problems().throw_if_any();
-  } catch (const InputError& error) {
-    problems.add_all(error);
-  }
+  problems.add_all(settings.problems().list());
   problems.add_all("the settings' ", model::problems_of(result.belts.machine));
 }
 

@@ -90,17 +90,13 @@ struct LeftOutPlace {
 void leave_out(const std::vector<LeftOutPlace>& places, std::string_view rest, MeasuredBelts& belts,
                std::vector<std::size_t>& lines, Problems& problems) {
   std::vector<Warning> left_out;
-  std::vector<bool> is_out(lines.size(), false);
+  std::vector<std::size_t> kept = numbers_below(lines.size());
   for (const LeftOutPlace& own : places) {
-    is_out[own.index] = true;
+    std::erase(kept, own.index);
     left_out.push_back({problems.file(), line_place(lines[own.index]),
                         fmt::format("this reading is left out: {}", own.why)});
   }
   warn_of(left_out, rest, problems);
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!is_out[i]) kept.push_back(i);
-  }
   keep_only(kept, belts.points);
   keep_only(kept, lines);
 }
@@ -193,12 +189,10 @@ void report_unreadable(const ScannedRun& run, PointRange within, std::size_t rea
 void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems) {
   if (holds_repeats(belts)) return;
   std::vector<LeftOutPlace> copies;
-  const std::vector<std::size_t> first = first_with_lengths_of(belts.points);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (first[i] != i)
-      copies.push_back({i, fmt::format("it is a copy, with the same four lengths as line {} to the "
-                                       "last digit",
-                                       lines[first[i]])});
+  for (const auto& [point, first] : copies_of(belts.points)) {
+    copies.push_back({point, fmt::format("it is a copy, with the same four lengths as line {} to "
+                                         "the last digit",
+                                         lines[first])});
   }
   leave_out(copies, "further readings are copies and left out", belts, lines, problems);
 }

@@ -42,7 +42,7 @@ ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t numb
     if (open_ && (c == '}' || c == '{' || c == ']')) {
       open_ = false;
       // A number that another sign ends is whole, though the bracket is lost.
-      add(read(text_, End::closed));
+      add(read(text_));
       found.list_ends = found.list_ends || c == ']';
       if (c == '{') begin(number, at + 1);
     } else if (open_) {
@@ -52,7 +52,7 @@ ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t numb
     } else if (c == '}') {
       line_ = number;
       column_ = 1;
-      add(read(outside_, End::closed));
+      add(read(outside_));
       outside_.clear();
     } else if (c == ']') {
       found.list_ends = true;
@@ -67,10 +67,10 @@ ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t numb
 std::optional<ScannedReading> ReadingReader::give_up() {
   if (!open_) return std::nullopt;
   open_ = false;
-  return read(text_, End::lost);
+  return read(text_, false);
 }
 
-std::optional<ScannedReading> ReadingReader::read(const std::string& text, End end) const {
+std::optional<ScannedReading> ReadingReader::read(const std::string& text, bool is_closed) const {
   Problems problems(file_);
   const std::string place = line_and_column(line_, column_);
   model::PerBelt<double> lengths_mm;
@@ -95,14 +95,14 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
   }
   // Objects of other programs.
   if (none_of(kBelts, [&](Belt belt) { return known[belt]; })) return std::nullopt;
-  const std::string whole = fmt::format("{{{}{}", unquoted(text), end == End::lost ? "" : "}");
+  const std::string whole = fmt::format("{{{}{}", unquoted(text), is_closed ? "}" : "");
   for (const Belt belt : kBelts) {
     if (!known[belt]) {
       problems.add(place, whole, ProblemKind::missing,
                    "a length of {} too; a reading has tl, tr, bl and br", name(belt));
     }
   }
-  if (end == End::lost && !problems.any())
+  if (!is_closed && !problems.any())
     problems.add(place, whole, ProblemKind::missing,
                  "a complete reading; the log ends in the middle of this one");
   ScannedReading reading;

@@ -93,23 +93,20 @@ class Scanner {
 
   /// In a list without its heading, several readings are on a line.
   void take_braces(std::string_view line, bool is_list) {
-    const bool is_bare_list =
-        !is_list && !is_open_list_ && std::count(line.begin(), line.end(), '{') > 1;
+    const bool is_bare_list = !is_list && !is_open_list_ && count_equal(line, '{') > 1;
     ReadingReader::Found found = reader_.take(line, line_);
     if (is_bare_list) is_open_list_ = true;
     is_bare_ = is_bare_list || (is_bare_ && is_open_list_);
-    if (is_open_list_) {
-      for (ScannedReading& reading : found.readings) list_.push_back(std::move(reading));
-      if (found.list_ends || (is_bare_ && !reader_.is_open())) close_list();
-    } else {
-      for (ScannedReading& reading : found.readings) run().points.push_back(std::move(reading));
-    }
+    for (ScannedReading& reading : found.readings) take(std::move(reading));
+    if (is_open_list_ && (found.list_ends || (is_bare_ && !reader_.is_open()))) close_list();
   }
 
   void give_up() {
-    auto reading = reader_.give_up();
-    if (!reading) return;
-    (is_open_list_ ? list_ : run().points).push_back(*std::move(reading));
+    if (auto reading = reader_.give_up()) take(*std::move(reading));
+  }
+
+  void take(ScannedReading reading) {
+    (is_open_list_ ? list_ : run().points).push_back(std::move(reading));
   }
 
   /// Waypoints may be printed again in the middle of a run: a list that begins with the previous

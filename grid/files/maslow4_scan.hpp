@@ -89,8 +89,7 @@ class ReadingReader {
   std::optional<ScannedReading> give_up();
 
  private:
-  enum class End { closed, lost };
-  std::optional<ScannedReading> read(const std::string& text, End end) const;
+  std::optional<ScannedReading> read(const std::string& text, bool is_closed = true) const;
   void begin(std::size_t number, std::size_t column);
 
   std::string file_;

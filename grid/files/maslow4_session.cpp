@@ -64,18 +64,17 @@ void check_frame(const MeasuredBelts& session, const std::string& name) {
 }  // namespace
 
 std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option) {
-  std::vector<BeltPull> pulls;
-  for (const std::string& part : parts_at_commas(text)) {
-    const auto pull = pull_of(part);
-    if (pull && (pulls.empty() || pull->unit == pulls.front().unit)) {
-      pulls.push_back(*pull);
-      continue;
-    }
-    refuse("the command line", option, shortened(text),
-           "how hard belts were pulled, one number for each run: a ratio 1,1.6, motor currents "
-           "1300mA,1900mA, or forces 150N,240N");
-  }
-  return pulls;
+  std::optional<BeltPull::Unit> unit;
+  return list_of_option(
+      text, option,
+      "how hard belts were pulled, one number for each run: a ratio 1,1.6, motor currents "
+      "1300mA,1900mA, or forces 150N,240N",
+      [&unit](const std::string& part) {
+        const auto pull = pull_of(part);
+        if (!pull || unit.value_or(pull->unit) != pull->unit) return std::optional<BeltPull>();
+        unit = pull->unit;
+        return pull;
+      });
 }
 
 Maslow4Import one_session(std::vector<Maslow4Import> runs, const std::vector<BeltPull>& pulls) {

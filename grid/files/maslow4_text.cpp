@@ -2,9 +2,10 @@
 #include "grid/files/maslow4_text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "grid/containers.hpp"
+#include "grid/files/blanks.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/parse_double.hpp"
 
@@ -20,8 +21,7 @@ std::size_t colour_code(std::string_view text, std::size_t at) {
   const std::size_t first = ++next;
   while (next < text.size() && (is_digit(text[next]) || text[next] == ';')) ++next;
   if (next >= text.size()) return has_escape ? next - at : 0;
-  const bool is_code = has_escape ? std::isalpha(static_cast<unsigned char>(text[next])) != 0
-                                  : text[next] == 'm' && next > first;
+  const bool is_code = has_escape ? is_letter(text[next]) : text[next] == 'm' && next > first;
   return is_code ? next + 1 - at : has_escape ? 1 : 0;
 }
 
@@ -46,7 +46,7 @@ bool is_message_without_end(std::string_view line) {
   constexpr std::size_t kLongestMessage = 8000;
   return line.starts_with("[MSG") && line.find('{') == std::string_view::npos &&
          line.find("CLBM") == std::string_view::npos && line.size() < kLongestMessage &&
-         std::count(line.begin(), line.end(), '[') > std::count(line.begin(), line.end(), ']');
+         count_equal(line, '[') > count_equal(line, ']');
 }
 
 }  // namespace
@@ -65,16 +65,15 @@ bool is_other_output(std::string_view line) {
       text.starts_with("ALARM"))
     return true;
   // "[MSG:INFO: ...]", "[G92:0,0]", "[ESP400]", but not "[{bl:.."
-  return text.size() > 1 && text.front() == '[' &&
-         std::isupper(static_cast<unsigned char>(text[1])) != 0 &&
+  return text.size() > 1 && text.front() == '[' && is_letter(text[1]) && text[1] <= 'Z' &&
          text.find('{') == std::string_view::npos;
 }
 
 bool is_heading(std::string_view line) {
   std::string word;
   std::size_t at = line.find_first_not_of("/# \t");
-  for (; at < line.size() && std::isalpha(static_cast<unsigned char>(line[at])) != 0; ++at) {
-    word += static_cast<char>(std::tolower(static_cast<unsigned char>(line[at])));
+  for (; at < line.size() && is_letter(line[at]); ++at) {
+    word += in_lower_case(line[at]);
   }
   if (word != "run" || at >= line.size() || line[at] != ' ') return false;
   const std::string_view rest = unquoted(line.substr(at));

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -29,7 +29,7 @@ void fetch_machine(std::optional<model::Machine>& machine, const std::string& ma
       machine = std::move(read.machine);
       problems.add_warnings(read.warnings);
     } catch (const InputError& error) {
-      problems.add_all(error);
+      problems.add_all(error.problems());
     }
   } else if (!machine) {
     machine = options.otherwise;
@@ -37,8 +37,8 @@ void fetch_machine(std::optional<model::Machine>& machine, const std::string& ma
 }
 
 std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                   const EntryWords& words, const std::string& place,
-                                   Problems& problems) {
+                                   std::string_view entries, const std::string& to_write,
+                                   const std::string& place, Problems& problems) {
   std::vector<std::size_t> kept;
   std::vector<std::string> blank;
   for (std::size_t i = 0; i < blank_names.size(); ++i) {
@@ -50,12 +50,12 @@ std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
   }
   if (blank.empty()) return kept;
   if (kept.empty()) {
-    problems.add(place, fmt::format("{} {}, all left blank", blank.size(), words.entries),
-                 ProblemKind::left_blank, std::string(words.to_write));
+    problems.add(place, fmt::format("{} {}, all left blank", blank.size(), entries),
+                 ProblemKind::left_blank, to_write);
     problems.throw_if_any();
   }
   problems.warn(place, "{} of {} {} are left blank and left out: {}", blank.size(),
-                blank_names.size(), words.entries, joined(blank));
+                blank_names.size(), entries, joined(blank));
   return kept;
 }
 
@@ -68,8 +68,8 @@ std::string how_many(const std::vector<std::string>& named, std::size_t count,
 
 void check_orders(const std::vector<StatedOrder>& orders, const PlaceOf& place_of,
                   Problems& problems) {
-  const auto with_order = std::count_if(
-      orders.begin(), orders.end(), [](const StatedOrder& one) { return one.order.has_value(); });
+  const std::size_t with_order =
+      count_where(orders, [](const StatedOrder& one) { return one.order.has_value(); });
   if (with_order == 0) return;
   std::map<int, std::size_t> first_with;
   for (std::size_t i = 0; i < orders.size(); ++i) {

@@ -46,17 +46,12 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& entries, Pl
   };
 }
 
-/// The name of a kind of entry, and what the user writes into a blank one.
-struct EntryWords {
-  std::string_view entries;  ///< "points"
-  std::string_view to_write;
-};
-
 /// Reports entries that were left blank, by their names (empty: not blank), and returns the others.
-/// \throws InputError if every one is blank.
+/// `entries`: "points"; `to_write`: what the user writes into a blank one. \throws InputError if
+/// every one is blank.
 std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                   const EntryWords& words, const std::string& place,
-                                   Problems& problems);
+                                   std::string_view entries, const std::string& to_write,
+                                   const std::string& place, Problems& problems);
 
 /// "all 28 points", "3 of 28 points (4, 7, 9)".
 std::string how_many(const std::vector<std::string>& named, std::size_t count,

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/observation/visiting_order.hpp"
 #include "model/kinematics.hpp"
@@ -55,17 +56,13 @@ inline constexpr Named<VisitingOrder> kVisitingOrders[] = {
 
 template <class E, std::size_t n>
 std::optional<E> named(const Named<E> (&names)[n], std::string_view word) {
-  for (const auto& [name, value] : names) {
-    if (name == word) return value;
-  }
-  return std::nullopt;
+  const auto* found = find_where(names, having(&Named<E>::first, word));
+  return found != nullptr ? std::optional(found->second) : std::nullopt;
 }
 
 template <class E, std::size_t n>
 std::vector<std::string> words_of(const Named<E> (&names)[n]) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : names) words.emplace_back(name);
-  return words;
+  return mapped(names, [](const Named<E>& one) { return std::string(one.first); });
 }
 
 }  // namespace chaintrue::grid::files

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
@@ -15,26 +16,6 @@
 namespace chaintrue::grid::files {
 
 namespace {
-
-/// parse_double accepts no plus sign.
-std::string_view without_plus(std::string_view text) {
-  return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
-}
-
-struct Parsed {
-  double value = 0.0;
-  bool is_whole = false;
-  bool is_out_of_range = false;
-};
-
-Parsed parse(std::string_view text) {
-  text = without_plus(text);
-  Parsed parsed;
-  const auto [end, error] = parse_double(text.data(), text.data() + text.size(), parsed.value);
-  parsed.is_whole = !text.empty() && end == text.data() + text.size();
-  parsed.is_out_of_range = error == std::errc::result_out_of_range;
-  return parsed;
-}
 
 /// Among the texts outside a double's range, those with a negative exponent are near zero; so are
 /// those without an exponent, 0.000...
@@ -46,6 +27,17 @@ bool is_near_zero(std::string_view text) {
   return first != std::string_view::npos && (text[first] == '0' || text[first] == '.');
 }
 
+/// Infinite beyond a double's range; empty for a text that is not a number as a whole.
+std::optional<double> any_number(std::string_view text) {
+  // parse_double accepts no plus sign.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = parse_double(text.data(), text.data() + text.size(), value);
+  if (text.empty() || end != text.data() + text.size()) return std::nullopt;
+  const bool is_beyond = error == std::errc::result_out_of_range && !is_near_zero(text);
+  return is_beyond ? std::numeric_limits<double>::infinity() : value;
+}
+
 }  // namespace
 
 std::string Range::expected() const {
@@ -54,10 +46,13 @@ std::string Range::expected() const {
 }
 
 std::optional<double> number_of(std::string_view text) {
-  const Parsed parsed = parse(text);
-  if (!parsed.is_whole) return std::nullopt;
-  if (parsed.is_out_of_range) return is_near_zero(text) ? std::optional(0.0) : std::nullopt;
-  return std::isfinite(parsed.value) ? std::optional(parsed.value) : std::nullopt;
+  const auto number = any_number(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+bool is_beyond_double(std::string_view text) {
+  const auto number = any_number(text);
+  return number && !std::isfinite(*number);
 }
 
 std::optional<int> whole_number_of(std::string_view text, int least, int most) {
@@ -65,16 +60,6 @@ std::optional<int> whole_number_of(std::string_view text, int least, int most) {
   const bool is_whole =
       number && *number >= least && *number <= most && *number == std::floor(*number);
   return is_whole ? std::optional(static_cast<int>(*number)) : std::nullopt;
-}
-
-std::vector<std::string> parts_at_commas(std::string_view text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    parts.emplace_back(text.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  return parts;
 }
 
 std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least,
@@ -86,12 +71,6 @@ std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, i
   const auto [last, second] = std::from_chars(middle + 1, end, pair[1]);
   const bool holds = std::min(pair[0], pair[1]) >= least && std::max(pair[0], pair[1]) <= most;
   return second == std::errc{} && last == end && holds ? std::optional(pair) : std::nullopt;
-}
-
-bool is_beyond_double(std::string_view text) {
-  const Parsed parsed = parse(text);
-  if (!parsed.is_whole) return false;
-  return parsed.is_out_of_range ? !is_near_zero(text) : !std::isfinite(parsed.value);
 }
 
 bool looks_like_decimal_comma(std::string_view text) {

@@ -4,6 +4,7 @@
 /// the locale.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -34,16 +35,29 @@ std::optional<int> whole_number_of(std::string_view text, int least, int most);
 /// "7x4" for 'x': two whole numbers from `least` to `most`; empty for any other text.
 std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least, int most);
 
-/// "7,12" as "7" and "12"; an empty text is one empty part.
-std::vector<std::string> parts_at_commas(std::string_view text);
-
 /// True for a number outside a double's range: 1e999, NaN, Infinity.
 bool is_beyond_double(std::string_view text);
+
+/// The parts of an option's text between its commas, each read by `one`, which returns nothing for a wrong part.
+/// \throws InputError
+template <class One>
+auto list_of_option(const std::string& text, const std::string& option, const std::string& expected,
+                    One one) {
+  std::vector<typename decltype(one(text))::value_type> list;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const auto read = one(text.substr(begin, comma - begin));
+    begin = comma + 1;
+    if (!read) refuse("the command line", option, shortened(text), expected);
+    list.push_back(*read);
+  }
+  return list;
+}
 
 /// True for `12,5` and `-1.200,5`: a number written with a decimal comma.
 bool looks_like_decimal_comma(std::string_view text);
 /// For a text in place of a number within a range.
-[[nodiscard]] ProblemKind kind_of_bad_number(std::string_view text);
+ProblemKind kind_of_bad_number(std::string_view text);
 
 /// The number in its range; otherwise reports it at `place` and returns nothing. `name` is the name
 /// of the value in the message.
@@ -62,7 +76,7 @@ std::optional<double> checked_number(std::string_view text, const std::string& p
 
 /// Millimetres; empty if the text is neither a length with a unit nor a fraction. A bare number is
 /// neither: its unit is that of its place. \post The value is finite.
-[[nodiscard]] std::optional<double> length_with_unit_mm(std::string_view text);
+std::optional<double> length_with_unit_mm(std::string_view text);
 
 /// The fraction that a spreadsheet turned into a date: `Jan-32` was 1/32, `16-Mar` 3/16. Empty if
 /// the text is not such a date.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -20,15 +19,6 @@ constexpr int kColumns = 31;
 constexpr std::size_t kLines = 2 * kRows;
 /// A machine with larger errors would not find the square with its camera.
 constexpr Range kError{"mm", -500.0, 500.0};
-
-using Block = std::array<std::array<double, kColumns>, kRows>;
-
-struct Blocks {
-  Block x{};
-  Block y{};
-  /// The line of each row of the first block, for messages.
-  std::array<std::size_t, kRows> lines{};
-};
 
 void check_shape(const std::vector<CsvRow>& rows, Problems& problems) {
   const std::string expected = fmt::format(
@@ -50,8 +40,8 @@ void check_width(const CsvRow& row, char separator, Problems& problems) {
                doubled ? " with decimal points; these look like decimal commas" : "");
 }
 
-Blocks read_blocks(const std::string& text, Problems& problems) {
-  Blocks blocks;
+/// The lines of both blocks.
+std::vector<CsvRow> read_rows(const std::string& text, Problems& problems) {
   const char separator = separator_of(text);
   std::vector<CsvRow> rows = split_csv(text, separator, problems);
   if (rows.empty())
@@ -59,19 +49,11 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
                  "the scan written by an optical calibration");
   problems.throw_if_any();
   check_shape(rows, problems);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    CsvRow& row = rows[r];
+  for (CsvRow& row : rows) {
     if (row.size() > 1 && row.back().text.empty()) row.pop_back();
     check_width(row, separator, problems);
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const char* name = r < kRows ? "error in x" : "error in y";
-      const auto value = checked_number(row[c].text, row[c].place(), name, kError, problems);
-      if (r >= kLines || c >= kColumns) continue;
-      (r < kRows ? blocks.x[r] : blocks.y[r - kRows])[c] = value.value_or(0.0);
-    }
-    if (r < kRows) blocks.lines[r] = row.front().line;
   }
-  return blocks;
+  return rows;
 }
 
 /// Positions and errors are decimals, and so are their sums and products: rounded to a nanometre,
@@ -88,62 +70,62 @@ int visit(const VisitingOrder& order, int row, int column) {
 }
 
 /// Numbers the visited squares from 0 without gaps.
-void number_visits(std::vector<StatedPoint>& points) {
-  std::vector<StatedPoint*> in_order;
-  for (StatedPoint& point : points) in_order.push_back(&point);
-  sort(in_order, [](const StatedPoint* a, const StatedPoint* b) { return *a->order < *b->order; });
+void number_visits(std::vector<MeasuredPoint>& points) {
+  std::vector<MeasuredPoint*> in_order;
+  for (MeasuredPoint& point : points) in_order.push_back(&point);
+  sort(in_order,
+       [](const MeasuredPoint* a, const MeasuredPoint* b) { return *a->order < *b->order; });
   for (std::size_t i = 0; i < in_order.size(); ++i) in_order[i]->order = static_cast<int>(i);
 }
 
-void check_options(const OpticalOptions& options, Problems& problems) {
-  if (!kOpticalPitchMm.holds(options.pitch_mm)) {
-    problems.add("--pitch-mm", fmt::format("{}", options.pitch_mm), ProblemKind::out_of_range,
-                 kOpticalPitchMm.expected());
-  }
+}  // namespace
+
+MeasuredGrid parse_optical(const std::string& text, const std::string& file,
+                           const OpticalOptions& options) {
+  Problems problems(file);
   if (options.machine.controller.kind == model::ControllerKind::ideal) {
     problems.add("the machine's /controller", "", ProblemKind::missing,
                  "the controller that executed the commands (\"kind\": \"maslow_classic\", "
                  "\"holey\" or \"fluidnc_wallplotter\") and its settings");
   }
-}
-
-}  // namespace
-
-ReadOptical parse_optical(const std::string& text, const std::string& file,
-                          const OpticalOptions& options) {
-  Problems problems(file);
-  check_options(options, problems);
-  const Blocks blocks = read_blocks(text, problems);
+  const std::vector<CsvRow> rows = read_rows(text, problems);
+  const auto error = [&](std::size_t row, std::size_t column) {
+    const CsvCell& cell = rows[row][column];
+    return checked_number(cell.text, cell.place(), row < kRows ? "error in x" : "error in y",
+                          kError, problems)
+        .value_or(0.0);
+  };
+  std::vector<std::vector<double>> errors;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    errors.emplace_back();
+    for (std::size_t c = 0; c < rows[r].size(); ++c) errors.back().push_back(error(r, c));
+  }
   problems.throw_if_any();
-  std::vector<StatedPoint> stated;
+  MeasuredGrid grid;
+  grid.name = name_without_folders(file);
+  grid.machine = options.machine;
+  grid.sheet = SheetUncertainty{};
   std::vector<std::string> lines;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const auto r = as_size(row);
-      const auto c = as_size(column);
-      if (blocks.x[r][c] == 0.0 && blocks.y[r][c] == 0.0) continue;
-      StatedPoint point;
-      point.x_mm = as_decimal((column - kColumns / 2) * options.pitch_mm);
-      point.y_mm = as_decimal((kRows / 2 - row) * options.pitch_mm);
-      point.commanded_x_mm = as_decimal(point.x_mm + blocks.x[r][c]);
-      point.commanded_y_mm = as_decimal(point.y_mm + blocks.y[r][c]);
+      const double in_x = errors[as_size(row)][as_size(column)];
+      const double in_y = errors[as_size(row + kRows)][as_size(column)];
+      if (in_x == 0.0 && in_y == 0.0) continue;
+      MeasuredPoint& point = grid.points.emplace_back();
+      point.mark = {as_decimal((column - kColumns / 2) * options.pitch_mm),
+                    as_decimal((kRows / 2 - row) * options.pitch_mm)};
+      point.commanded = {as_decimal(point.mark.x_mm + in_x), as_decimal(point.mark.y_mm + in_y)};
       if (options.order) point.order = visit(*options.order, row, column);
-      stated.push_back(point);
-      lines.push_back(fmt::format("line {}, number {}", blocks.lines[r], column + 1));
+      lines.push_back(
+          fmt::format("line {}, number {}", rows[as_size(row)].front().line, column + 1));
     }
   }
-  if (options.order) number_visits(stated);
-  ReadOptical read;
-  read.squares = kRows * kColumns;
-  read.grid.name = name_without_folders(file);
-  read.grid.machine = options.machine;
-  read.grid.sheet = SheetUncertainty{};
+  if (options.order) number_visits(grid.points);
   const PointPlaces places{"the visited squares",
                            [&lines](std::size_t index, std::string_view) { return lines[index]; }};
-  read.grid.points = measured_points(stated, places, problems);
-  check_points_together(read.grid, kFewestPoints, places, problems);
+  check_points_together(grid, kFewestPoints, places, problems);
   problems.throw_if_any();
-  return read;
+  return grid;
 }
 
 }  // namespace chaintrue::grid::files

@@ -22,6 +22,8 @@
 
 namespace chaintrue::grid::files {
 
+inline constexpr int kOpticalSquares = 15 * 31;
+
 struct OpticalOptions {
   /// Includes the controller that executed the commands.
   model::Machine machine;
@@ -30,15 +32,10 @@ struct OpticalOptions {
   std::optional<VisitingOrder> order;
 };
 
-struct ReadOptical {
-  /// Points with commands; the sheet placed by hand (20 mm, 10 mrad); no noise stated.
-  MeasuredGrid grid;
-  int squares = 0;
-};
-
+/// Points with commands; the sheet placed by hand (20 mm, 10 mrad); no noise stated.
 /// `file` is the name used in messages and, without its folder, the grid's. \throws InputError with
 /// every problem of the file, or if the machine has no controller.
-ReadOptical parse_optical(const std::string& text, const std::string& file,
-                          const OpticalOptions& options);
+MeasuredGrid parse_optical(const std::string& text, const std::string& file,
+                           const OpticalOptions& options);
 
 }  // namespace chaintrue::grid::files

@@ -2,7 +2,6 @@
 #include "grid/files/origin.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "grid/containers.hpp"
 #include "grid/files/formats.hpp"
@@ -35,7 +34,7 @@ constexpr std::string_view kSchemaOfFormat =
     "{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"chaintrue_";
 
 /// The first words of results.
-constexpr std::array<std::string_view, 9> kTables = {
+constexpr std::string_view kTables[] = {
     "# Kinematics for Klipper, written by chaintrue export klipper: ",
     "/* Kinematics for LinuxCNC, written by chaintrue export linuxcnc: ",
     "cell,machine,effects,used_on,",
@@ -46,46 +45,24 @@ constexpr std::array<std::string_view, 9> kTables = {
     "{\"line\": ",
     "{\"x_mm\": "};
 
-bool is_signature(const Json& comment) {
-  return comment.is_string() && comment.get_ref<const std::string&>().starts_with(kSignature);
-}
-
 /// The comments of a file's root, one by one.
 std::vector<std::string> comments_of(const Json& document) {
   std::vector<std::string> comments;
-  if (!document.contains("comment")) return comments;
-  const Json& comment = document.at("comment");
-  if (comment.is_string()) comments.push_back(comment.get<std::string>());
-  if (!comment.is_array()) return comments;
-  for (const Json& line : comment) {
+  const Json comment = document.value("comment", Json::array());
+  for (const Json& line : comment.is_array() ? comment : Json::array({comment})) {
     if (line.is_string()) comments.push_back(line.get<std::string>());
   }
   return comments;
 }
 
 bool is_as_signed(const Json& document) {
-  const std::vector<std::string> comments = comments_of(document);
-  return any_of(comments, [&](const std::string& comment) {
-    return comment == std::string(kSignature) + content_hash(document);
-  });
-}
-
-/// The kind of a whole result by its head; foreign if that does not show it. Results are long, and
-/// their content does not matter here.
-Origin origin_by_head(std::string_view text) {
-  constexpr std::string_view kHead = "{\n  \"file_type\": \"";
-  if (!text.starts_with(kHead) || !text.ends_with("\n}\n")) return Origin::foreign;
-  text.remove_prefix(kHead.size());
-  const Format* format = format_of(std::string(text.substr(0, text.find('"'))));
-  return format == nullptr || is_signed(format->origin) ? Origin::foreign : format->origin;
+  return contains(comments_of(document), std::string(kSignature) + content_hash(document));
 }
 
 Origin origin_of_json(const std::string& text) {
-  if (const Origin known = origin_by_head(text); known != Origin::foreign) return known;
-  Problems ignored("");
   Json document;
   try {
-    document = parse_json(text, ignored);
+    document = parse_json(text, "");
   } catch (const InputError&) {
     return Origin::foreign;
   }
@@ -106,20 +83,17 @@ Origin origin_of_list(std::string_view text) {
 }
 
 std::string signed_json(const std::string& text, Origin kind) {
-  Problems ignored("");
-  const Json document = parse_json(text, ignored);
+  const Json document = parse_json(text, "");
   if (origin_by_type(document) != kind) return text;
-  Json comments = Json::array();
-  for (const std::string& comment : comments_of(document)) {
-    if (!is_signature(comment)) comments.push_back(comment);
-  }
-  const std::string signature = std::string(kSignature) + content_hash(document);
-  comments.push_back(signature);
+  std::vector<std::string> comments = comments_of(document);
+  std::erase_if(comments, [](const std::string& own) { return own.starts_with(kSignature); });
+  comments.push_back(std::string(kSignature) + content_hash(document));
   Json out = Json::object();
   for (const auto& [key, value] : document.items()) {
     if (key == "comment") continue;
     out[key] = value;
-    if (key == "format_version") out["comment"] = comments.size() == 1 ? Json(signature) : comments;
+    if (key != "format_version") continue;
+    out["comment"] = comments.size() == 1 ? Json(comments.front()) : Json(comments);
   }
   return print_json(out);
 }

@@ -6,11 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -21,45 +19,49 @@
 #include <utility>
 
 #include "grid/files/input_error.hpp"
+#include "grid/files/number_text.hpp"
 
 namespace chaintrue::grid::files {
-namespace {
 
-namespace fs = std::filesystem;
-
-/// Data for the signal handler: names of temporary files, at fixed addresses. A slot is claimed
-/// before its file is created, so that every file has one.
-struct Slot {
+/// The name of a temporary file.
+struct PendingName {
   std::atomic<bool> is_taken{false};
   std::atomic<bool> is_named{false};
   std::array<char, 4096> name{};
 };
-std::array<Slot, 16> slots;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// At fixed addresses for the signal handler. A slot is claimed before its file is created, so that
+/// every file has one.
+std::array<PendingName, 16> slots;
 
 extern "C" void remove_pending_and_end(int signal_number) {
-  for (const Slot& slot : slots) {
+  for (const PendingName& slot : slots) {
     if (slot.is_named.load()) ::unlink(slot.name.data());
   }
   std::signal(signal_number, SIG_DFL);
   std::raise(signal_number);
 }
 
-int claim_slot(const std::string& name) {
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    Slot& slot = slots[i];
+/// Null if there is no room.
+PendingName* claim_slot(const std::string& name) {
+  for (PendingName& slot : slots) {
     if (name.size() >= slot.name.size() || slot.is_taken.exchange(true)) continue;
     std::memcpy(slot.name.data(), name.c_str(), name.size() + 1);
     slot.is_named.store(true);
-    return static_cast<int>(i);
+    return &slot;
   }
-  return -1;
+  return nullptr;
 }
 
-void free_slot(int& slot) {
-  if (slot < 0) return;
-  slots[static_cast<std::size_t>(slot)].is_named.store(false);
-  slots[static_cast<std::size_t>(slot)].is_taken.store(false);
-  slot = -1;
+void free_slot(PendingName*& slot) {
+  if (slot == nullptr) return;
+  slot->is_named.store(false);
+  slot->is_taken.store(false);
+  slot = nullptr;
 }
 
 /// The open descriptor that a path such as /dev/stdout or /proc/self/fd/3 names.
@@ -67,11 +69,7 @@ std::optional<int> descriptor_behind(const fs::path& path) {
   if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   if (path.parent_path() != "/dev/fd" && path.parent_path() != "/proc/self/fd") return std::nullopt;
-  const std::string digits = path.filename().string();
-  int number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return error == std::errc{} && end == digits.data() + digits.size() ? std::optional(number)
-                                                                      : std::nullopt;
+  return whole_number_of(path.filename().string(), 0, 1'000'000);
 }
 
 /// Where symbolic links lead, whether a file is there or not.
@@ -172,7 +170,7 @@ class OldFile {
  private:
   fs::path target_;
   std::string name_;
-  int slot_;
+  PendingName* slot_;
   bool has_name_ = false;
   bool is_new_ = false;
 };

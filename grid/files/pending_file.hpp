@@ -25,6 +25,8 @@
 
 namespace chaintrue::grid::files {
 
+struct PendingName;
+
 class PendingFile {
  public:
   /// \throws InputError if the path is a folder, its folder does not exist, or it may not be
@@ -55,7 +57,7 @@ class PendingFile {
   std::string temporary_;
   std::string held_;
   int descriptor_ = -1;
-  int slot_ = -1;
+  PendingName* slot_ = nullptr;
   int error_number_ = 0;
 };
 

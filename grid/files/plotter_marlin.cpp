@@ -40,10 +40,10 @@ struct MarlinArea {
 };
 
 MarlinArea logged_area(SettingReader& settings) {
-  return {needed(settings, "M665/L", kCoordinateMm),
-          needed(settings, "M665/R", kCoordinateMm),
-          needed(settings, "M665/T", kCoordinateMm),
-          needed(settings, "M665/B", kCoordinateMm),
+  return {settings.need("M665/L", kCoordinateMm),
+          settings.need("M665/R", kCoordinateMm),
+          settings.need("M665/T", kCoordinateMm),
+          settings.need("M665/B", kCoordinateMm),
           {},
           {}};
 }
@@ -67,11 +67,11 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
     const auto from = settings.find(axis + "_MIN_POS", kCoordinateMm);
     const auto to = settings.find(axis + "_MAX_POS", kCoordinateMm);
     const std::string size_name = axis + "_BED_SIZE";
-    const auto size = from && to ? settings.find(size_name, kCoordinateMm)
-                                 : settings.need(size_name, kCoordinateMm);
+    const double size = from && to ? settings.find(size_name, kCoordinateMm).value_or(0.0)
+                                   : settings.need(size_name, kCoordinateMm);
     is_assumed = is_assumed || !from || !to;
-    least = from.value_or(-0.5 * size.value_or(0.0));
-    most = to.value_or(least + size.value_or(0.0));
+    least = from.value_or(-0.5 * size);
+    most = to.value_or(least + size);
   };
   ends("X", area.left, area.right);
   ends("Y", area.bottom, area.top);
@@ -170,8 +170,7 @@ SetPlotter plotter_of_marlin(const std::string& text, Problems& problems) {
   }
   SettingReader settings(std::move(texts), problems);
   const MarlinArea area = is_log ? logged_area(settings) : defined_area(settings, problems);
-  const double belt =
-      needed(settings, is_log ? "M665/H" : "POLARGRAPH_MAX_BELT_LEN", kCoordinateMm);
+  const double belt = settings.need(is_log ? "M665/H" : "POLARGRAPH_MAX_BELT_LEN", kCoordinateMm);
   const auto steps = [&](const char* logged, int place) {
     const std::string key = is_log ? std::string("M92/") + logged
                                    : fmt::format("DEFAULT_AXIS_STEPS_PER_UNIT/{}", place);

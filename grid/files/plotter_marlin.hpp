@@ -13,11 +13,6 @@ namespace chaintrue::grid::files {
 inline constexpr Range kPositive{"", 1e-6, 1e6};
 inline constexpr const char* kSaysWhatHangs = "describes where the pen hangs";
 
-/// For a required key; 0 if it is missing and reported.
-inline double needed(SettingReader& settings, const std::string& key, const Range& range) {
-  return settings.need(key, range).value_or(0.0);
-}
-
 /// The settings of most controllers do not say what hangs on the cords.
 void warn_of_gondola(const model::PlotterMachine& machine, Problems& problems);
 

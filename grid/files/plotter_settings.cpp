@@ -57,16 +57,12 @@ void assume_area(std::optional<double> height_mm, PlotterMachine& machine, Probl
 
 SetPlotter of_fluidnc(const std::string& text, Problems& problems) {
   SettingReader settings(yaml_texts(text, problems), problems);
-  const std::string anchors = "kinematics/WallPlotter/";
-  const double left_x = needed(settings, anchors + "left_anchor_x", kCoordinateMm);
-  const double left_y = needed(settings, anchors + "left_anchor_y", kCoordinateMm);
-  const double right_x = needed(settings, anchors + "right_anchor_x", kCoordinateMm);
-  const double right_y = needed(settings, anchors + "right_anchor_y", kCoordinateMm);
+  const auto [left, right] = fluidnc_anchors(settings);
   SetPlotter set;
   set.firmware = PlotterFirmware::fluidnc;
-  set.machine.pin_spacing_mm = right_x - left_x;
-  set.machine.pin_rise_mm = right_y - left_y;
-  set.pins_middle = {0.5 * (left_x + right_x), 0.5 * (left_y + right_y)};
+  set.machine.pin_spacing_mm = right.x_mm - left.x_mm;
+  set.machine.pin_rise_mm = right.y_mm - left.y_mm;
+  set.pins_middle = {0.5 * (left.x_mm + right.x_mm), 0.5 * (left.y_mm + right.y_mm)};
   // FluidNC starts at its own zero.
   set.home = model::BedPoint{-set.pins_middle.x_mm, -set.pins_middle.y_mm};
   set.steps_per_mm = {settings.find("axes/x/steps_per_mm", kPositive).value_or(0.0),
@@ -104,8 +100,8 @@ model::BedPoint polargraph_home(SettingReader& settings, double width, bool is_b
     return {0.5 * width, *down + more.value_or(0.0)};
   }
   if (!is_boot_log) {
-    return {needed(settings, "controller.homepoint.x", kCoordinateMm),
-            needed(settings, "controller.homepoint.y", kCoordinateMm)};
+    return {settings.need("controller.homepoint.x", kCoordinateMm),
+            settings.need("controller.homepoint.y", kCoordinateMm)};
   }
   constexpr double kUsualDownMm = 120.0;
   problems.warn("",
@@ -137,10 +133,10 @@ SetPlotter of_polargraph(const std::string& text, Problems& problems) {
   SettingReader settings(is_boot_log ? boot_log_texts(text) : line_texts(text, '='), problems);
   SetPlotter set;
   set.firmware = PlotterFirmware::polargraph;
-  const double width = needed(settings, kPolargraphWidth, kCoordinateMm);
+  const double width = settings.need(kPolargraphWidth, kCoordinateMm);
   const model::BedPoint home = polargraph_home(settings, width, is_boot_log, problems);
-  const double turn = needed(settings, "machine.motors.mmPerRev", kPositive);
-  const double steps = needed(settings, "machine.motors.stepsPerRev", kPositive) *
+  const double turn = settings.need("machine.motors.mmPerRev", kPositive);
+  const double steps = settings.need("machine.motors.stepsPerRev", kPositive) *
                        settings.find("machine.step.multiplier", kPositive).value_or(1.0);
   if (turn > 0.0) set.steps_per_mm = {steps / turn, steps / turn};
   set.machine.pin_spacing_mm = width;
@@ -181,7 +177,7 @@ SetPlotter of_mural(const std::string& text, Problems& problems) {
   SettingReader settings(line_texts(text, ':'), problems);
   SetPlotter set;
   set.firmware = PlotterFirmware::mural;
-  set.machine = model::mural(needed(settings, kTopDistance, kCoordinateMm));
+  set.machine = model::mural(settings.need(kTopDistance, kCoordinateMm));
   if (const auto diameter = settings.find(kPulleyDiameter, kPositive))
     set.machine.pulley_radius_mm = 0.5 * *diameter;
   if (const auto offset = settings.find(kHomedOffset, {"mm", -1000.0, 1000.0}))

@@ -16,25 +16,22 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
   // A list of commands: the positions that the tool was sent to.
   const std::vector<std::string> header = csv_header(text);
   const bool is_sheet = contains(header, "commanded_x_mm");
-  const CsvTable table = read_csv(text,
-                                  {{"x_mm", kCoordinateMm, true, is_sheet},
-                                   {"y_mm", kCoordinateMm, true, is_sheet},
-                                   {"number", kNumber, false},
-                                   {"order", kNumber, false},
-                                   {"left_mm", kLengthMm, false},
-                                   {"right_mm", kLengthMm, false},
-                                   {"commanded_x_mm", kCoordinateMm, is_sheet},
-                                   {"commanded_y_mm", kCoordinateMm, is_sheet}},
-                                  problems);
-  if (table.rows.empty() && !problems.any()) {
-    problems.add("", "a header line only", ProblemKind::empty_file,
-                 "at least one line of numbers below it");
-  }
+  const std::vector<CsvLine> lines = read_csv(text,
+                                              {{"x_mm", kCoordinateMm, true, is_sheet},
+                                               {"y_mm", kCoordinateMm, true, is_sheet},
+                                               {"number", kNumber, false},
+                                               {"order", kNumber, false},
+                                               {"left_mm", kLengthMm, false},
+                                               {"right_mm", kLengthMm, false},
+                                               {"commanded_x_mm", kCoordinateMm, is_sheet},
+                                               {"commanded_y_mm", kCoordinateMm, is_sheet}},
+                                              problems);
   problems.throw_if_any();
   std::vector<model::MarkPoint> points;
-  points.reserve(table.rows.size());
+  points.reserve(lines.size());
   const std::size_t x = is_sheet ? 6 : 0;
-  for (const auto& row : table.rows) points.push_back({row[x].value(), row[x + 1].value()});
+  for (const CsvLine& line : lines)
+    points.push_back({line.values[x].value(), line.values[x + 1].value()});
   return points;
 }
 

@@ -6,13 +6,12 @@
 #include <numeric>
 
 #include "grid/containers.hpp"
+#include "grid/files/blanks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// Levenshtein distance, case-insensitive.
 std::size_t errors_between(std::string_view a, std::string_view b) {
@@ -22,7 +21,8 @@ std::size_t errors_between(std::string_view a, std::string_view b) {
     std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+      const std::size_t replaced =
+          diagonal + (in_lower_case(a[i - 1]) == in_lower_case(b[j - 1]) ? 0 : 1);
       diagonal = row[j];
       row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
     }
@@ -34,32 +34,31 @@ std::size_t errors_between(std::string_view a, std::string_view b) {
 bool is_without_unit(std::string_view word, std::string_view candidate) {
   return !word.empty() && candidate.size() > word.size() && candidate[word.size()] == '_' &&
          std::equal(word.begin(), word.end(), candidate.begin(),
-                    [](char a, char b) { return lower(a) == lower(b); });
+                    [](char a, char b) { return in_lower_case(a) == in_lower_case(b); });
 }
 
 /// Limits the number of problems of one kind: of one file, with the same expectation. The number of
 /// the omitted ones is given at the last one listed.
 std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
+  using Kind = std::pair<std::string, std::string>;
   const auto kind_of = [](const InputProblem& problem) {
-    return std::pair(problem.file, problem.expected);
+    return Kind(problem.file, problem.expected);
   };
-  std::map<std::pair<std::string, std::string>, std::size_t> total;
+  std::map<Kind, std::size_t> total;
   for (const InputProblem& problem : all) ++total[kind_of(problem)];
-  std::map<std::pair<std::string, std::string>, std::size_t> listed;
+  std::map<Kind, std::size_t> listed;
   std::vector<InputProblem> few;
   for (const InputProblem& problem : all) {
     const std::size_t most = Problems::kMostOfAKind;
     const std::size_t number = ++listed[kind_of(problem)];
+    const std::size_t in_all = total[kind_of(problem)];
     // One more line is no longer than a count of one.
-    if (number <= most || total[kind_of(problem)] == most + 1) few.push_back(problem);
-    if (number == most && total[kind_of(problem)] > most + 1) {
-      few.push_back({problem.file,
-                     "",
-                     fmt::format("{} more like these", total[kind_of(problem)] - most),
-                     problem.expected,
-                     {},
-                     problem.kind});
-    }
+    if (number <= most || in_all == most + 1) few.push_back(problem);
+    if (number != most || in_all <= most + 1) continue;
+    few.push_back(problem);
+    few.back().place.clear();
+    few.back().sentence.clear();
+    few.back().value = fmt::format("{} more like these", in_all - most);
   }
   return few;
 }
@@ -83,7 +82,7 @@ void Problems::doubt(std::string place, std::string sentence, ProblemKind kind) 
   warnings_.push_back({file_, std::move(place), std::move(sentence), kind});
 }
 
-void Problems::add_all(const InputError& error) { append_all(list_, error.problems()); }
+void Problems::add_all(const std::vector<InputProblem>& found) { append_all(list_, found); }
 
 void Problems::add_warnings(const std::vector<Warning>& warnings) {
   append_all(warnings_, warnings);
@@ -142,7 +141,7 @@ std::string line_and_column(std::size_t line, std::size_t column) {
 
 std::string line_and_column_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const auto line = 1 + as_size(std::count(before.begin(), before.end(), '\n'));
+  const auto line = 1 + count_equal(before, '\n');
   const std::size_t last_break = before.rfind('\n');
   const std::size_t column =
       last_break == std::string_view::npos ? before.size() + 1 : before.size() - last_break;

@@ -54,13 +54,13 @@ class Problems {
   /// Warns of what may be a mistake of this kind.
   void doubt(std::string place, std::string sentence, ProblemKind kind);
   /// Adds those of another file that this one names.
-  void add_all(const InputError& error);
+  void add_all(const std::vector<InputProblem>& found);
   void add_warnings(const std::vector<Warning>& warnings);
   /// True if something was reported at this JSON pointer or below it.
   bool at_or_below(std::string_view pointer) const;
   bool any() const { return !list_.empty(); }
   const std::string& file() const { return file_; }
-  [[nodiscard]] const std::vector<InputProblem>& list() const { return list_; }
+  const std::vector<InputProblem>& list() const { return list_; }
   const std::vector<Warning>& warnings() const { return warnings_; }
   /// \throws InputError with everything collected; beyond kMostOfAKind with the same expectation,
   /// and beyond kMostProblems in all, the rest is counted, not listed.

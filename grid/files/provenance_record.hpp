@@ -34,7 +34,7 @@ Record<T>& add_made_by_key(Record<T>& record) {
 std::string content_hash(const Json& document);
 
 /// The text of the document with the hash of its content as its last key.
-[[nodiscard]] std::string print_with_hash(Json document);
+std::string print_with_hash(Json document);
 
 /// Reports a hash that is not that of the file's content.
 void check_content(const Cursor& at);

@@ -28,8 +28,6 @@ Record<model::AppliedEffect> effect_record();
 /// By GroundControl's own names.
 Record<model::ControllerSettings> controller_settings_record();
 
-/// A chaintrue_effect, without the checks of model::effects::problems_of.
-const Record<model::effects::Declaration>& declaration_record();
 /// A machine's "declared_effects": each is read, checked and declared.
 Value<std::vector<const model::effects::Effect*>> declared_value();
 /// Whether a machine's declared effects are finite on its bed and 0 at null.

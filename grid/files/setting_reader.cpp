@@ -35,25 +35,23 @@ bool is_first(std::map<std::string, std::string>& places, const std::string& key
   return is_new;
 }
 
-std::string at_most_settings() {
-  return fmt::format("at most {} lines of settings", kMostSettings);
+void refuse_more_settings(const std::string& place, Problems& problems) {
+  problems.add(place, "more settings", ProblemKind::too_many, "at most {} lines of settings",
+               kMostSettings);
 }
 
 }  // namespace
 
 std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  std::string small;
+  for (const char c : text) small += in_lower_case(c);
   return small;
 }
 
 SettingReader::SettingReader(SettingTexts texts, Problems& problems,
                              std::vector<std::string> folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
-  if (texts_.size() > kMostSettings)
-    problems.add("", "more settings", ProblemKind::too_many, at_most_settings());
+  if (texts_.size() > kMostSettings) refuse_more_settings("", problems);
 }
 
 const SettingText* SettingReader::look(const std::string& key) {
@@ -77,14 +75,14 @@ std::optional<double> SettingReader::find(const std::string& key, const Range& r
   return checked_number(setting->text, setting->place, key, range, problems_);
 }
 
-std::optional<double> SettingReader::need(const std::string& key, const Range& range) {
+double SettingReader::need(const std::string& key, const Range& range) {
   if (look(key) == nullptr) {
     problems_.add(key, "", ProblemKind::missing,
                   folders_.empty() ? range.expected()
                                    : fmt::format("{}, in [{}]", range.expected(),
                                                  fmt::join(folders_, "] or [")));
   }
-  return find(key, range);
+  return find(key, range).value_or(0.0);
 }
 
 std::optional<std::string> SettingReader::find_word(const std::string& key,
@@ -207,7 +205,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
       continue;
     }
     if (settings++ == kMostSettings) {
-      problems.add(place, "more settings", ProblemKind::too_many, at_most_settings());
+      refuse_more_settings(place, problems);
       break;
     }
     const std::string key = section + in_small_letters(trimmed(line.substr(0, sign)));

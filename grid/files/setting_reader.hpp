@@ -5,7 +5,7 @@
 ///
 /// \code
 ///   SettingReader settings(yaml_texts(text, problems), problems);
-///   const double x = settings.need("kinematics/WallPlotter/left_anchor_x", kAnchor).value_or(0.0);
+///   const double x = settings.need("kinematics/WallPlotter/left_anchor_x", kAnchor);
 ///   settings.warn_of_others("says where the pen hangs");
 /// \endcode
 #pragma once
@@ -38,8 +38,8 @@ class SettingReader {
   const SettingText* look(const std::string& key);
   /// Empty if it is missing or reported.
   std::optional<double> find(const std::string& key, const Range& range);
-  /// As above; a missing one is reported.
-  std::optional<double> need(const std::string& key, const Range& range);
+  /// 0 if it is missing, which is reported, or wrong.
+  double need(const std::string& key, const Range& range);
   /// One of `words`; another is reported.
   std::optional<std::string> find_word(const std::string& key,
                                        const std::vector<std::string>& words);
@@ -72,5 +72,8 @@ SettingTexts line_texts(const std::string& text, char separator, std::string_vie
 SettingTexts ini_texts(std::string_view text, Problems& problems);
 
 std::string in_small_letters(std::string_view text);
+
+/// The anchors of FluidNC's WallPlotter, in its own coordinates; fluidnc_file.cpp.
+model::PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings);
 
 }  // namespace chaintrue::grid::files

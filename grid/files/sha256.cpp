@@ -61,7 +61,7 @@ void Sha256::take_block(const unsigned char* block) {
   for (std::size_t i = 0; i < found.size(); ++i) state_[i] += found[i];
 }
 
-void Sha256::add(std::string_view bytes) {
+Sha256& Sha256::add(std::string_view bytes) {
   bytes_ += bytes.size();
   while (!bytes.empty()) {
     const std::size_t taken = std::min(bytes.size(), kBlockBytes - waiting_bytes_);
@@ -69,10 +69,11 @@ void Sha256::add(std::string_view bytes) {
                 waiting_.begin() + static_cast<std::ptrdiff_t>(waiting_bytes_));
     waiting_bytes_ += taken;
     bytes.remove_prefix(taken);
-    if (waiting_bytes_ < kBlockBytes) return;
+    if (waiting_bytes_ < kBlockBytes) break;
     take_block(waiting_.data());
     waiting_bytes_ = 0;
   }
+  return *this;
 }
 
 std::string Sha256::text() const {

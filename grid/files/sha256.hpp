@@ -3,9 +3,7 @@
 /// SHA-256 (NIST FIPS 180-4, 2015), for the files that a result was made from.
 ///
 /// \code
-///   Sha256 hash;
-///   hash.add("abc");
-///   hash.text();  // "ba7816bf 8f01cfea ..." without blanks
+///   Sha256().add("abc").text();  // "ba7816bf 8f01cfea ..." without blanks
 /// \endcode
 #pragma once
 
@@ -19,7 +17,7 @@ namespace chaintrue::grid::files {
 
 class Sha256 {
  public:
-  void add(std::string_view bytes);
+  Sha256& add(std::string_view bytes);
   /// 64 hexadecimal digits, of what was added so far.
   std::string text() const;
 

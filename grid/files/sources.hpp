@@ -29,6 +29,10 @@ std::vector<SourceFile> sources_read();
 void note_source(SourceFile source);
 /// Starts again, on a thread that does several pieces of work; files_read() is empty then, too.
 void forget_sources();
+/// What read_whole_file() has read on this thread, including files named by other files. Standard input
+/// is /dev/stdin.
+std::vector<std::filesystem::path> files_read();
+void note_as_read(std::filesystem::path path);
 /// What sources_read() says from now on, until forget_sources(): the files that are read on this thread
 /// were written for a piece of work, of what these held.
 void state_sources(std::vector<SourceFile> sources);

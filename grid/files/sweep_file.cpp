@@ -104,40 +104,38 @@ struct StatedSweep : SweepSpec {
 };
 
 const Record<StatedSweep>& sweep_record() {
-  static const auto record = [] {
-    const auto spacing = choice<DesignKind>(
-        {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
-    const auto surface = by_name_to(SurfaceLevel::direct_natural);
-    RECORD(StatedSweep, "a chaintrue_sweep file", kSweepFormat)
-    REQUIRED(name, "Name of the sweep.")
-    OPTIONAL(question, "The question it answers, in a sentence.")
-    OPTIONAL(seed, "Seed of the random draws; the same seed gives the same numbers.", seed_number())
-    REQUIRED(repetitions, "Number of machines drawn for each combination.", integer(1, 1'000'000))
-    OPTIONAL(repeats, "Number of marks that are visited twice.", integer(0, 10'000))
-    OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
-    OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
-    FIELD(
-        computed, "evaluation",
-        "Columns x rows of places where the map is compared with the truth.", false, grid_size(1),
-        [](StatedSweep& stated, const GridLevel& size) {
-          stated.evaluation_columns = size.columns;
-          stated.evaluation_rows = size.rows;
-        },
-        [](const StatedSweep& stated) {
-          return GridLevel{stated.evaluation_columns, stated.evaluation_rows};
-        })
-    OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
-    OPTIONAL(spacings, "Spacing of the marks; a factor.", list(spacing, 1))
-    OPTIONAL(noises, "Noise of the readings; a factor.", list(noise_level_record(), 1))
-    OPTIONAL(jitters_mm, "Largest distance of the sled from its mark; a factor.",
-             list(number({"mm", 0.0, 1000.0}), 1))
-    OPTIONAL(surfaces, "Kind of map; a factor.", list(surface, 1))
-    NAMED(required, "machines", machine_files, "The machines; a factor.",
-          list(stated_machine_record(), 1))
-    OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
-    NAMED(optional, "used_on", uses, "The machine that the map is used on; a factor.",
-          list(use_record(), 1));
-  }();
+  const auto spacing =
+      choice<DesignKind>({{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
+  const auto surface = by_name_to(SurfaceLevel::direct_natural);
+  KEPT_RECORD(StatedSweep, "a chaintrue_sweep file", kSweepFormat)
+  REQUIRED(name, "Name of the sweep.")
+  OPTIONAL(question, "The question it answers, in a sentence.")
+  OPTIONAL(seed, "Seed of the random draws; the same seed gives the same numbers.", seed_number())
+  REQUIRED(repetitions, "Number of machines drawn for each combination.", integer(1, 1'000'000))
+  OPTIONAL(repeats, "Number of marks that are visited twice.", integer(0, 10'000))
+  OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
+  OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
+  FIELD(
+      computed, "evaluation", "Columns x rows of places where the map is compared with the truth.",
+      false, grid_size(1),
+      [](StatedSweep& stated, const GridLevel& size) {
+        stated.evaluation_columns = size.columns;
+        stated.evaluation_rows = size.rows;
+      },
+      [](const StatedSweep& stated) {
+        return GridLevel{stated.evaluation_columns, stated.evaluation_rows};
+      })
+  OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
+  OPTIONAL(spacings, "Spacing of the marks; a factor.", list(spacing, 1))
+  OPTIONAL(noises, "Noise of the readings; a factor.", list(noise_level_record(), 1))
+  OPTIONAL(jitters_mm, "Largest distance of the sled from its mark; a factor.",
+           list(number({"mm", 0.0, 1000.0}), 1))
+  OPTIONAL(surfaces, "Kind of map; a factor.", list(surface, 1))
+  NAMED(required, "machines", machine_files, "The machines; a factor.",
+        list(stated_machine_record(), 1))
+  OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
+  NAMED(optional, "used_on", uses, "The machine that the map is used on; a factor.",
+        list(use_record(), 1));
   return record;
 }
 
@@ -154,7 +152,7 @@ void read_machines(const fs::path& path, const std::vector<std::string>& effects
       problems.add_warnings(read.warnings);
       at->second = std::move(read.machine);
     } catch (const InputError& error) {
-      problems.add_all(error);
+      problems.add_all(error.problems());
     }
     try {
       const std::size_t own = at->second.declared.size();
@@ -163,7 +161,7 @@ void read_machines(const fs::path& path, const std::vector<std::string>& effects
         given.insert(std::string(at->second.declared[k]->id));
     } catch (const InputError& error) {
       effects_are_sound = false;
-      problems.add_all(error);
+      problems.add_all(error.problems());
     }
     return at->second;
   };

@@ -76,58 +76,39 @@ std::string summary_line(const SweepSpec& spec, const Levels& levels,
   line["done"] = done.size();
   if (done.empty()) return "    " + compact_json(line);
   for (const auto& [name, error] : kCellErrors) {
-    std::vector<double> values;
-    for (const CellResult& result : done) values.push_back(result.*error);
+    const std::vector<double> values = mapped(done, error);
     line[std::string(name)] = {{"median", median(values)}, {"worst", *max_element(values)}};
   }
   return "    " + compact_json(line);
 }
 
-// Sums of the report's lines, one for each factor, level and grid.
-class LevelSums {
- public:
-  explicit LevelSums(const SweepSpec& spec) : grids_(spec.grids.size()) {
-    const auto counts = level_counts(spec);
-    for (std::size_t factor = 0; factor < kFactors; ++factor) {
-      first_[factor] = errors_.size();
-      for (std::size_t level = 0; level < counts[factor]; ++level) {
-        for (std::size_t grid = 0; grid < grids_; ++grid) errors_.push_back({factor, level, grid});
-      }
-    }
-  }
-  void add(const Levels& levels, const CellResult& r) {
-    if (r.status != CellStatus::done) return;
-    for (std::size_t factor = 0; factor < kFactors; ++factor) {
-      LevelError& error = errors_[first_[factor] + levels[factor] * grids_ + levels[kFactors - 1]];
-      ++error.cells;
-      error.tool_rms_mm += r.tool_rms_mm * r.tool_rms_mm;
-      error.tool_max_mm = std::max(error.tool_max_mm, r.tool_max_mm);
-    }
-  }
-  [[nodiscard]] std::vector<LevelError> finished() && {
-    std::erase_if(errors_, [](const LevelError& error) { return error.cells == 0; });
-    for (LevelError& error : errors_)
-      error.tool_rms_mm = std::sqrt(error.tool_rms_mm / as_double(error.cells));
-    return std::move(errors_);
-  }
+/// Lines of the report by factor, level and grid; their rms are sums of squares until it is written.
+using LevelSums = std::map<std::array<std::size_t, 3>, LevelError>;
 
- private:
-  std::size_t grids_;
-  std::array<std::size_t, kFactors> first_{};
-  std::vector<LevelError> errors_;
-};
+void add_to(LevelSums& sums, const Levels& levels, const CellResult& r) {
+  if (r.status != CellStatus::done) return;
+  for (std::size_t factor = 0; factor < kFactors; ++factor) {
+    const std::size_t grid = levels[kFactors - 1];
+    LevelError& error =
+        sums.try_emplace({factor, levels[factor], grid}, LevelError{factor, levels[factor], grid})
+            .first->second;
+    ++error.cells;
+    error.tool_rms_mm += r.tool_rms_mm * r.tool_rms_mm;
+    error.tool_max_mm = std::max(error.tool_max_mm, r.tool_max_mm);
+  }
+}
 
 }  // namespace
 
 std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells& cells,
                                       const fs::path& directory) {
-  const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
+  const auto missing = count_equal(cells, std::nullopt);
   if (missing > 0) throw precondition("sweep: {} of {} cells are missing", missing, cells.size());
   PendingFile csv(directory / "results.csv");
   PendingFile summary(directory / "summary.json");
   csv.write(csv_header());
   summary.write(summary_head(spec));
-  LevelSums sums(spec);
+  LevelSums sums;
   const auto repetitions = static_cast<std::uint64_t>(spec.repetitions);
   std::vector<CellResult> combination;
   std::string levels_text;
@@ -142,7 +123,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells
     }
     csv.write(fmt::format("{}{},{},{}{}\n", cell, levels_text, repetition, name(result.status),
                           csv_values(result)));
-    sums.add(levels, result);
+    add_to(sums, levels, result);
     combination.push_back(result);
     if (repetition + 1 == repetitions) {
       const bool last = cell + 1 == cells.size();
@@ -151,7 +132,12 @@ std::vector<LevelError> write_results(const SweepSpec& spec, const FinishedCells
   }
   summary.write("  ]\n}\n");
   take_places({&csv, &summary});
-  return std::move(sums).finished();
+  std::vector<LevelError> errors;
+  for (const auto& [place, sum] : sums) {
+    errors.push_back(sum);
+    errors.back().tool_rms_mm = std::sqrt(sum.tool_rms_mm / as_double(sum.cells));
+  }
+  return errors;
 }
 
 }  // namespace chaintrue::grid::files

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -31,9 +30,7 @@ std::string header_of(const ReadSweep& read) {
 
 std::string check_of(std::string_view line) {
   constexpr std::size_t kDigits = 8;
-  Sha256 hash;
-  hash.add(line);
-  return hash.text().substr(0, kDigits);
+  return Sha256().add(line).text().substr(0, kDigits);
 }
 
 std::string line_of(std::uint64_t cell, const CellResult& r) {

@@ -16,8 +16,7 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 bool is_webcontrol(const std::string& text, const std::string& file) {
-  Problems problems(file);
-  const Json json = parse_json(text, problems);
+  const Json json = parse_json(text, file);
   return json.is_object() && json.contains("Maslow Settings") && json.contains("Advanced Settings");
 }
 

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <set>
 #include <system_error>
 
-#include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/sha256.hpp"
@@ -31,7 +29,7 @@ constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
 
 std::string read_to_the_end(std::FILE* file, const fs::path& path) {
   const std::string name = name_in_messages(path);
-  note_as_read(fileno(file));
+  note_as_read(path == "-" ? "/dev/stdin" : path);
   std::string text;
   char buffer[1 << 16];
   std::size_t count = 0;
@@ -48,9 +46,7 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
     refuse(name, fmt::format("a read error ({})", system_words(errno)),
            "a file that can be read to its end", ProblemKind::unreadable_file);
   }
-  Sha256 hash;
-  hash.add(text);
-  note_source({name_without_folders(path), hash.text()});
+  note_source({name_without_folders(path), Sha256().add(text).text()});
   return text;
 }
 
@@ -78,52 +74,29 @@ void check_is_text(const std::string& text, const std::string& name) {
   }
 }
 
-void put_utf8(std::uint32_t code, std::string& text) {
-  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
-  if (code < 0x80) return put(code);
-  if (code < 0x800) {
-    put(0xC0 | code >> 6);
-  } else if (code < 0x10000) {
-    put(0xE0 | code >> 12);
-    put(0x80 | (code >> 6 & 0x3F));
-  } else {
-    put(0xF0 | code >> 18);
-    put(0x80 | (code >> 12 & 0x3F));
-    put(0x80 | (code >> 6 & 0x3F));
-  }
-  put(0x80 | (code & 0x3F));
-}
-
 /// What Excel saves as "Unicode text" begins with a byte order mark of UTF-16; other text is
 /// unchanged.
-std::string utf8_of(std::string text) {
+std::string utf8_of(std::string text, const std::string& name) {
   const bool is_little = text.starts_with("\xFF\xFE");
   if (!is_little && !text.starts_with("\xFE\xFF")) return text;
-  std::string result;
-  std::uint32_t high = 0;
+  std::u16string units;
   for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
-    const auto byte = [&](std::size_t k) {
-      return std::uint32_t{static_cast<unsigned char>(text[k])};
-    };
-    const std::uint32_t unit = is_little ? byte(i) | byte(i + 1) << 8 : byte(i) << 8 | byte(i + 1);
-    const bool is_low = unit >= 0xDC00 && unit < 0xE000;
-    if (unit >= 0xD800 && unit < 0xDC00) {
-      high = unit;
-    } else {
-      // Half of a surrogate pair becomes the replacement character.
-      put_utf8(!is_low     ? unit
-               : high != 0 ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00)
-                           : 0xFFFD,
-               result);
-      high = 0;
-    }
+    const auto first = static_cast<unsigned char>(text[i]);
+    const auto second = static_cast<unsigned char>(text[i + 1]);
+    units += static_cast<char16_t>(is_little ? first | second << 8 : first << 8 | second);
   }
-  return result;
+  try {
+    // A path has the only conversion of the standard library that is not deprecated.
+    return fs::path(units).string();
+  } catch (const fs::filesystem_error&) {
+    refuse(name, "UTF-16 with half a character", "text in UTF-8", ProblemKind::unreadable_file);
+  }
 }
 
 std::string read_text(std::FILE* file, const fs::path& path) {
-  std::string text = utf8_of(read_to_the_end(file, path));
-  check_is_text(text, name_in_messages(path));
+  const std::string name = name_in_messages(path);
+  std::string text = utf8_of(read_to_the_end(file, path), name);
+  check_is_text(text, name);
   return text;
 }
 

@@ -14,6 +14,13 @@ std::string_view name(SheetEdge edge) {
   return kNames[static_cast<std::size_t>(edge)];
 }
 
+std::optional<SheetEdge> edge_of(std::string_view word) {
+  for (const SheetEdge edge : kSheetEdges) {
+    if (word == name(edge)) return edge;
+  }
+  return std::nullopt;
+}
+
 double sigma_of(const MeasuredHoles& set, const HoleDistance& distance) {
   return distance.sigma_mm.value_or(set.tape.sigma_mm);
 }

@@ -31,6 +31,7 @@ inline constexpr std::array kSheetEdges = {SheetEdge::left, SheetEdge::right, Sh
                                            SheetEdge::bottom};
 /// The word in files: left, right, top, bottom.
 std::string_view name(SheetEdge edge);
+std::optional<SheetEdge> edge_of(std::string_view word);
 
 struct Hole {
   std::string name;

@@ -55,7 +55,7 @@ grid::MeasuredGrid whole_of(const Scan& scan) {
                   files::Tolerances::unexplained)
           .machine;
   options.pitch_mm = kPitchMm;
-  return files::read(files::parse_optical, data / "optical_grid" / scan.file, options).grid;
+  return files::read(files::parse_optical, data / "optical_grid" / scan.file, options);
 }
 
 grid::MeasuredGrid few_of(const Scan& scan, grid::MeasuredGrid whole) {

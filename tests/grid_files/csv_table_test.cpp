@@ -31,7 +31,7 @@ struct Read {
 Read read(const std::string& text) {
   Problems problems("t.csv");
   Read result;
-  result.rows = read_csv(text, kColumns, problems).rows;
+  for (const CsvLine& line : read_csv(text, kColumns, problems)) result.rows.push_back(line.values);
   for (const Warning& warning : problems.warnings()) result.warnings.push_back(warning.message());
   for (const InputProblem& problem : problems.list()) result.refusals.push_back(problem.message());
   return result;

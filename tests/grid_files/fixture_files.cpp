@@ -68,8 +68,7 @@ Outcome outcome_of(const std::string& kind, const std::string& text, const std::
   if (kind == "maslow4") return belts(parse_maslow4(text, name));
   if (kind == "plottersettings") return plotter(parse_plotter_settings(text, name));
   if (kind == "points") return {points_written(parse_points(text, name)), {}, {}};
-  if (kind == "optical")
-    return {write_grid(parse_optical(text, name, optical_options()).grid), {}, {}};
+  if (kind == "optical") return {write_grid(parse_optical(text, name, optical_options())), {}, {}};
   if (kind == "diagnosis") return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
   if (kind == "anchors") return {write_anchors(parse_anchors(text, name)), {}, {}};
   if (kind == "plotter") return {write_plotter(parse_plotter(text, name)), {}, {}};

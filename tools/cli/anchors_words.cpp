@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include "grid/belts/scale_by_tape.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/belt_effects.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
-
-using model::Belt;
-using model::kBelts;
 
 /// "0.23 +- 0.06 %", of a share.
 std::string share_in_words(double share, double sigma) {
@@ -43,21 +41,20 @@ void list_causes(const BeltsFit& fit, Section& section) {
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
       section.say(
-          fmt::format("The anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; the fit "
-                      "allows for this.",
-                      cause.parameters.at("give_mm"), cause.sigma));
+          "The anchors yield by {:.2f} +- {:.2f} mm at the motors' pull; the fit "
+          "allows for this.",
+          cause.parameters.at("give_mm"), cause.sigma);
     } else if (cause.effect == model::belts::belt_stretch.id) {
-      section.say(fmt::format(
+      section.say(
           "At the motors' pull the belts are {} longer than counted; the fit allows for this.",
-          share_in_words(cause.parameters.at("elongation"), cause.sigma)));
+          share_in_words(cause.parameters.at("elongation"), cause.sigma));
     } else if (cause.probability > kLikely) {
       if (std::string text = sized(cause); !text.empty()) others.push_back(std::move(text));
     }
   }
   if (!others.empty()) {
-    section.say(
-        fmt::format("Included in these anchors: {}. chaintrue diagnose shows what to inspect.",
-                    diagnosis::joined(others, "and")));
+    section.say("Included in these anchors: {}. chaintrue diagnose shows what to inspect.",
+                diagnosis::joined(others, "and"));
   }
   section.say(
       "The anchors' sigmas allow for other causes of usual size, such as a belt with a wrong zero.",
@@ -89,19 +86,19 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
     const double turns = bad.residual_mm / turn_mm;
     // To within a twentieth of a turn, which a bad reading reaches by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
-    section.say(fmt::format(
-        "Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all others{}.",
-        model::words(bad.belt), number_of(fitted, bad.point), std::abs(bad.residual_mm),
-        bad.residual_mm > 0.0 ? "longer" : "shorter",
-        is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder", std::abs(std::round(turns)),
-                               std::abs(turns) < 1.5 ? "" : "s")
-                 : ""));
+    section.say("Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all others{}.",
+                model::words(bad.belt), number_of(fitted, bad.point), std::abs(bad.residual_mm),
+                bad.residual_mm > 0.0 ? "longer" : "shorter",
+                is_whole
+                    ? fmt::format(", {:.0f} whole turn{} of the encoder",
+                                  std::abs(std::round(turns)), std::abs(turns) < 1.5 ? "" : "s")
+                    : "");
   }
   for (const std::size_t point : fit.bad_points) {
     section.say(
-        fmt::format("Point {} is unusable: fewer than three of its readings agree. Measure "
-                    "it again or leave it out.",
-                    number_of(fitted, point)));
+        "Point {} is unusable: fewer than three of its readings agree. Measure "
+        "it again or leave it out.",
+        number_of(fitted, point));
   }
 }
 
@@ -129,9 +126,9 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
     return;
   }
   section.say(
-      fmt::format("Scale: true lengths are {:.5f} +- {:.5f} times the belts' lengths "
-                  "according to the tape, {:.1f} mm per metre.",
-                  fit.scale->factor, fit.scale->sigma, 1000.0 * (fit.scale->factor - 1.0)));
+      "Scale: true lengths are {:.5f} +- {:.5f} times the belts' lengths "
+      "according to the tape, {:.1f} mm per metre.",
+      fit.scale->factor, fit.scale->sigma, 1000.0 * (fit.scale->factor - 1.0));
   if (fitted.belts == nullptr) return;
   List taped;
   for (std::size_t i = 0; i < fitted.belts->distances.size(); ++i) {
@@ -145,8 +142,8 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
 }
 
 void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
-  section.say(fmt::format("Holes: {} distances, which agree with each other to about {} mm.",
-                          holes.distances.size(), about_mm(holes.left_out_rms_mm)));
+  section.say("Holes: {} distances, which agree with each other to about {} mm.",
+              holes.distances.size(), about_mm(holes.left_out_rms_mm));
   section.say(fmt::format("Each distance is predicted from all others to {:.2f} mm rms; tape and "
                           "holes have {:.2g} times the error that you entered.",
                           holes.left_out_rms_mm, holes.noise_factor),
@@ -154,10 +151,10 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   for (const auto& distance : holes.distances) {
     if (!distance.rejected) continue;
     section.say(
-        fmt::format("Left out: the distance {}, taped {:.1f} mm {} than predicted by all others; "
-                    "tape it again.",
-                    distance.words, std::abs(distance.left_out_mm),
-                    distance.left_out_mm > 0.0 ? "longer" : "shorter"));
+        "Left out: the distance {}, taped {:.1f} mm {} than predicted by all others; "
+        "tape it again.",
+        distance.words, std::abs(distance.left_out_mm),
+        distance.left_out_mm > 0.0 ? "longer" : "shorter");
   }
   if (!holes.displacement) {
     return section.say("The holes show no further displacement of the tool over the sheet.");
@@ -167,10 +164,10 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   for (Eigen::Index i = 0; i + 1 < at.size(); i += 2)
     largest = std::max(largest, std::hypot(at[i], at[i + 1]));
   section.say(
-      fmt::format("The tool is up to {:.1f} mm from the position given by its upper two "
-                  "belts; this changes over about {:.0f} mm of the sheet. gcode compensate "
-                  "corrects it, no setting does.",
-                  largest, holes.displacement->reach_mm));
+      "The tool is up to {:.1f} mm from the position given by its upper two "
+      "belts; this changes over about {:.0f} mm of the sheet. gcode compensate "
+      "corrects it, no setting does.",
+      largest, holes.displacement->reach_mm);
 }
 
 double least_known_mm(const BeltsFit& fit) {
@@ -217,7 +214,7 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsEr
       fmt::format(
           "The machine's formula (Find Anchors fit: rms) gives {:.2f} mm, because it divides "
           "by all {} readings although places and anchors use {} degrees of freedom.",
-          fit.rms_mm, readings, readings - static_cast<std::size_t>(fit.checks)),
+          fit.rms_mm, readings, readings - grid::as_size(fit.checks)),
       Detail::verbose);
   if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
     section.say(fmt::format("The machine printed rms {:.2f} mm and max {:.2f} mm.",

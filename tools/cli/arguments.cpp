@@ -136,9 +136,7 @@ std::vector<std::string> long_names(const std::vector<CLI::Option*>& options) {
 }
 
 std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
-  return names;
+  return grid::mapped(verbs, [](const CLI::App* verb) { return verb->get_name(); });
 }
 
 void usage_error(const std::string& verb, const std::string& sentence) {

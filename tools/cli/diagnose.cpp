@@ -4,7 +4,6 @@
 /// the cause, and what to measure next.
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/raster.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 
@@ -107,9 +108,8 @@ Section drawn_measures_section(const Diagnosis& found) {
 }
 
 Light drawn_settings_light(const Diagnosis& found) {
-  const auto& settings = found.drawing->settings;
-  const auto off = std::count_if(settings.begin(), settings.end(),
-                                 [](const DrawnSetting& own) { return own.off; });
+  const std::size_t off =
+      grid::count_where(found.drawing->settings, [](const DrawnSetting& own) { return own.off; });
   if (off == 0) return {Tone::good, "Settings right?", "yes"};
   return {Tone::caution, "Settings right?", fmt::format("{} off: type them in", off)};
 }

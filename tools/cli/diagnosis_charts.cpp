@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/containers.hpp"
 #include "grid/raster.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
@@ -18,9 +19,8 @@ using report::Outline;
 constexpr const char* kChains[] = {"left", "right"};
 
 std::vector<Arrow> arrows_of(const Diagnosis& found, Eigen::Vector2d PointPicture::*shift) {
-  std::vector<Arrow> arrows;
-  for (const PointPicture& point : found.points) arrows.push_back(arrow_of(point, point.*shift));
-  return arrows;
+  return grid::mapped(found.points,
+                      [&](const PointPicture& point) { return arrow_of(point, point.*shift); });
 }
 
 struct Panel {

@@ -53,7 +53,7 @@ Light data_light(const Diagnosis& found) {
 }
 
 void put_the_verdict(const Diagnosis& found, Document& document) {
-  const VerdictLights& lights = kVerdicts[static_cast<std::size_t>(found.verdict)];
+  const VerdictLights& lights = kVerdicts[grid::as_size(found.verdict)];
   const bool left = is_something_left(found);
   // The error comes first, the same number as a fit begins with.
   document.verdict = {found.tool_today
@@ -149,7 +149,7 @@ std::string_view where_it_goes(const Diagnosis& found) {
       "\"readings\" of either",
       "Points and distances go into the belts' file",
       "Measures go into the drawing's file"};  // by Observations
-  return kGoes[static_cast<std::size_t>(found.observations)];
+  return kGoes[grid::as_size(found.observations)];
 }
 
 std::string noise_in_words(const Diagnosis& found) {
@@ -208,9 +208,10 @@ Section next_section(const Diagnosis& found) {
 }
 
 Section settings_section(const Diagnosis& found) {
-  std::vector<SettingRow> rows;
-  for (const auto& one : found.settings)
-    rows.push_back({one.setting, one.stated, one.stated_sigma, one.calibrated, one.sigma, one.off});
+  const auto rows = grid::mapped(found.settings, [](const auto& one) {
+    return SettingRow{one.setting,    one.stated, one.stated_sigma,
+                      one.calibrated, one.sigma,  one.off};
+  });
   return {"The machine's settings", {settings_table(rows)}};
 }
 

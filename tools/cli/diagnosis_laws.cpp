@@ -97,8 +97,7 @@ std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
   const Law& law = found.unexplained->laws.front();
   std::vector<Arrow> before, after;
   for (const PointPicture& point : found.points) {
-    const auto* own = grid::find_where(
-        law.points, [&](const LawResidual& residual) { return residual.index == point.index; });
+    const auto* own = grid::find_where(law.points, grid::having(&LawResidual::index, point.index));
     const Eigen::Vector2d& shift = found.causes.empty() ? point.before_mm : point.after_mm;
     before.push_back(arrow_of(point, shift));
     if (own == nullptr || !own->left_x_mm || !own->left_y_mm) continue;

@@ -40,8 +40,8 @@ struct Scatter {
 /// Means of the good points in stretches of equal width along x.
 std::vector<std::pair<double, double>> means_of(const Diagnosis& found, const Scatter& scatter) {
   const std::size_t bins = found.points.size() >= 60 ? 10 : 6;
-  std::vector<double> all;
-  for (const PointPicture& point : found.points) all.push_back(scatter.x(point, scatter.chain));
+  const auto all = grid::mapped(
+      found.points, [&](const PointPicture& point) { return scatter.x(point, scatter.chain); });
   const auto [low, high] = grid::minmax_element(all);
   std::vector<double> x(bins), y(bins), count(bins);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -15,7 +15,6 @@ namespace {
 using diagnosis::BudgetLine;
 using diagnosis::Cause;
 using diagnosis::Verdict;
-using report::Column;
 using report::number_column;
 
 /// Improbable hypotheses are not listed.
@@ -26,13 +25,13 @@ std::string what_words(const BudgetLine& line) {
                                          "a pattern that no listed cause explains",
                                          "remaining in these readings"};  // by What
   if (line.what == BudgetLine::What::cause) return cause_title(*line.cause);
-  return std::string(kWords[static_cast<std::size_t>(line.what)]);
+  return std::string(kWords[grid::as_size(line.what)]);
 }
 
 std::string_view changes_words(const BudgetLine& line) {
   constexpr std::string_view kWords[] = {"", "the place", "the order of the visits",
                                          "the direction of the move"};  // by ChangesWith
-  return kWords[static_cast<std::size_t>(line.changes_with)];
+  return kWords[grid::as_size(line.changes_with)];
 }
 
 std::string budget_words(const Diagnosis& found) {
@@ -185,9 +184,8 @@ Table removals_table(const Diagnosis& found) {
   grid::stable_sort(order, [](const Removal* a, const Removal* b) {
     return a->stands != b->stands ? b->stands : a->support > b->support;
   });
-  const auto changes =
-      std::count_if(order.begin(), order.end(), [](const Removal* r) { return !r->stands; });
-  order.resize(std::min(order.size(), kShown + grid::as_size(changes)));
+  const std::size_t changes = grid::count_where(order, [](const Removal* r) { return !r->stands; });
+  order.resize(std::min(order.size(), kShown + changes));
   Table table{{{"left out"},
                {std::string(name(found.observations)), true},
                {"probability then", true},

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "grid/containers.hpp"
 #include "model/effects/effect.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 using diagnosis::Hypothesis;
 using diagnosis::MeasurementKind;
-using diagnosis::ParameterEstimate;
 
 struct HypothesisWords {
   std::string_view word;
@@ -63,7 +61,7 @@ std::string share_percent(double share) {
 
 std::string reading_in_words(const NextMeasurement& next) {
   std::string text = fmt::format("Measure {}", diagnosis::reading_words(*next.reading, next.side));
-  const auto& [count, unit] = kReadings[static_cast<std::size_t>(*next.reading)];
+  const auto& [count, unit] = kReadings[grid::as_size(*next.reading)];
   if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", count * next.sigma, unit);
   if (count > 1.0) text += fmt::format("; divide it by {:g} for the file", count);
   return text + ".";
@@ -119,7 +117,7 @@ bool is_of_distances(const Diagnosis& found) {
 std::string_view files_in_words(const Diagnosis& found) {
   constexpr std::string_view kFiles[] = {"GRID", "HOLES", "GRID --with HOLES", "BELTS",
                                          "DRAWING"};  // by Observations
-  return kFiles[static_cast<std::size_t>(found.observations)];
+  return kFiles[grid::as_size(found.observations)];
 }
 
 std::string readings_counted(const Diagnosis& found) {

@@ -28,12 +28,10 @@ MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPo
   for (const auto& hole : found.holes) {
     if (hole.name == name) return hole.mark;
   }
-  for (const grid::SheetEdge edge : grid::kSheetEdges) {
-    if (grid::name(edge) != name) continue;
-    return model::identity_placement(
-        on_edge(model::identity_placement(alongside), edge, found.extended_machine.bed));
-  }
-  return alongside;
+  const auto edge = grid::edge_of(name);
+  if (!edge) return alongside;
+  return model::identity_placement(
+      on_edge(model::identity_placement(alongside), *edge, found.extended_machine.bed));
 }
 
 Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
@@ -42,10 +40,9 @@ Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
 }
 
 std::vector<Arrow> marks_of(const Diagnosis& found) {
-  std::vector<Arrow> marks;
-  for (const auto& hole : found.holes)
-    marks.push_back({.name = hole.name, .x_mm = hole.mark.x_mm, .y_mm = hole.mark.y_mm});
-  return marks;
+  return grid::mapped(found.holes, [](const auto& hole) {
+    return Arrow{.name = hole.name, .x_mm = hole.mark.x_mm, .y_mm = hole.mark.y_mm};
+  });
 }
 
 struct DistancePanel {

@@ -91,7 +91,7 @@ void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) 
 
 std::string draw_effect(const Machine& machine, const EffectPicture& picture) {
   const Bed& bed = machine.bed;
-  const BedView view{bed, {kMargin, 3.0 * kCaption}, kWidth - 2.0 * kMargin};
+  const BedView view{grid::area_of(bed), {kMargin, 3.0 * kCaption}, kWidth - 2.0 * kMargin};
   const double squares_top = view.y(-0.5 * bed.height_mm) + 3.0 * kCaption;
   std::string title = picture.applied.effect;
   if (!picture.applied.side.empty()) title += " " + picture.applied.side;

@@ -187,11 +187,9 @@ std::vector<double> chosen_values(const Effect& effect, EffectSide side,
     problems.add("--set", problem.value, problem.expected, ProblemKind::impossible);
   }
   problems.throw_if_any();
-  std::vector<double> values;
-  for (const EffectParameter& parameter : effect.parameters) {
-    values.push_back(wanted.parameters.at(std::string(parameter.name)));
-  }
-  return values;
+  return grid::mapped(effect.parameters, [&](const EffectParameter& parameter) {
+    return wanted.parameters.at(std::string(parameter.name));
+  });
 }
 
 EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProblems& problems) {

@@ -3,7 +3,6 @@
 
 #include "tools/cli/svg.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -11,7 +10,6 @@
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/effect_file.hpp"
-#include "grid/raster.hpp"
 #include "grid/synthetic/atlas.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
 #include "model/reading_model.hpp"
@@ -77,30 +75,17 @@ for (const figure of document.querySelectorAll('figure')) {
 }
 )";
 
-/// From millimetres to the units of a picture.
-struct View {
-  double left_mm = 0.0;
-  double top_mm = 0.0;
-  double scale = 1.0;
-  double height = 0.0;
-  std::string point(ToolPosition at) const {
-    return fmt::format("{:.1f} {:.1f}", kPad + scale * (at.x_mm - left_mm),
-                       kPad + scale * (top_mm - at.y_mm));
-  }
-};
-
-View view_of(const std::vector<AtlasLine>& lines) {
+BedView view_of(const std::vector<AtlasLine>& lines) {
   const ToolPosition first = lines.front().points.front();
   interp::Rectangle box{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
   for (const AtlasLine& line : lines) {
     for (const ToolPosition& point : line.points) grid::take_in(box, {point.x_mm, point.y_mm});
   }
-  const double scale = (kPictureWidth - 2.0 * kPad) / box.width();
-  return {box.x_min, box.y_max, scale, 2.0 * kPad + scale * box.height()};
+  return {box, {kPad, kPad}, kPictureWidth - 2.0 * kPad};
 }
 
 /// Errors `times` as large; a line is broken where the machine cannot hold the tool.
-std::string path_of(const View& view, const AtlasLine& line,
+std::string path_of(const BedView& view, const AtlasLine& line,
                     const std::vector<std::optional<ToolPosition>>& drawn, double times) {
   std::string path;
   bool pen_is_down = false;
@@ -110,16 +95,16 @@ std::string path_of(const View& view, const AtlasLine& line,
       continue;
     }
     const ToolPosition& at = line.points[i];
-    path += pen_is_down ? "L" : "M";
-    path += view.point({at.x_mm + times * (drawn[i]->x_mm - at.x_mm),
-                        at.y_mm + times * (drawn[i]->y_mm - at.y_mm)});
+    path += fmt::format("{}{:.1f} {:.1f}", pen_is_down ? "L" : "M",
+                        view.x(at.x_mm + times * (drawn[i]->x_mm - at.x_mm)),
+                        view.y(at.y_mm + times * (drawn[i]->y_mm - at.y_mm)));
     pen_is_down = true;
   }
   return path;
 }
 
 /// The lines of the lattice as one path, those of the square as another.
-std::string paths(const View& view, const std::vector<AtlasLine>& lines, const AtlasFrame& frame,
+std::string paths(const BedView& view, const std::vector<AtlasLine>& lines, const AtlasFrame& frame,
                   double times, std::string_view colour) {
   std::string svg;
   for (const bool of_square : {false, true}) {
@@ -180,8 +165,8 @@ AtlasFrame as_commanded(const std::vector<AtlasLine>& lines) {
   return frame;
 }
 
-std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& picture) {
-  const double wanted = 0.5 * kPad / view.scale;
+std::string figure_of(const BedView& view, const Atlas& atlas, const AtlasPicture& picture) {
+  const double wanted = 0.5 * kPad / view.scale();
   const double times = picture.largest_shift_mm < kNothingMm
                            ? 1.0
                            : report::round_down_125(wanted / picture.largest_shift_mm);
@@ -189,7 +174,7 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
   const std::string usual = escaped(words_of_size(picture, picture.frames[picture.usual].size));
   std::string svg =
       fmt::format("<figure>\n<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
-                  kPictureWidth, view.height, usual);
+                  kPictureWidth, view.high() + 2.0 * kPad, usual);
   svg += paths(view, atlas.lines, straight, 1.0, report::kNeutralColor);
   const std::size_t nothing = place_of_nothing(picture);
   const std::size_t shown = picture.usual + (picture.usual >= nothing ? 1 : 0);
@@ -214,7 +199,7 @@ std::string figure_of(const View& view, const Atlas& atlas, const AtlasPicture& 
   return svg;
 }
 
-std::string section_of(const View& view, const Atlas& atlas, bool of_settings) {
+std::string section_of(const BedView& view, const Atlas& atlas, bool of_settings) {
   std::string figures;
   for (const AtlasPicture& picture : atlas.pictures) {
     if ((picture.effect == nullptr) == of_settings) figures += figure_of(view, atlas, picture);
@@ -226,7 +211,7 @@ std::string section_of(const View& view, const Atlas& atlas, bool of_settings) {
 
 /// \param machine its name. Same atlas, same bytes.
 std::string atlas_page(const Atlas& atlas, const std::string& machine) {
-  const View view = view_of(atlas.lines);
+  const BedView view = view_of(atlas.lines);
   return fmt::format(
              R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">

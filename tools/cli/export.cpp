@@ -3,7 +3,6 @@
 /// chaintrue export: a machine, or its calibration, as numbers to type into another program.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>

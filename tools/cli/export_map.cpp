@@ -37,7 +37,7 @@ std::string table_words(const files::TableModule& module) {
   return fmt::format(
       "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within {:.4f} mm "
       "of the map",
-      module.columns, module.rows, module.spacing_mm, module.largest_error_mm);
+      module.columns, module.rows, module.spacing_mm(), module.largest_error_mm);
 }
 
 std::string without_table(const grid::MapFailure& failure) {

@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/map/compensation_map.hpp"

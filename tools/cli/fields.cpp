@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
 std::string csv_line(const Fields& fields, std::string Field::*what) {
-  std::vector<std::string> cells;
-  for (const Field& field : fields) cells.push_back(field.*what);
-  return fmt::format("{}\n", fmt::join(cells, ","));
+  return fmt::format("{}\n", fmt::join(grid::mapped(fields, what), ","));
 }
 
 }  // namespace

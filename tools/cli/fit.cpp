@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/check_file.hpp"

@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "tools/cli/input_file.hpp"
 #include "tools/report/document.hpp"

@@ -52,8 +52,7 @@ std::string follow_up_list(const Diagnosis& found) {
 }
 
 bool proposes(const Diagnosis& found, MeasurementKind kind) {
-  return grid::any_of(found.next_measurements,
-                      [&](const NextMeasurement& next) { return next.kind == kind; });
+  return grid::any_of(found.next_measurements, grid::having(&NextMeasurement::kind, kind));
 }
 
 std::string point_lines(const Diagnosis& found, const MeasuredGrid& measured, bool is_json) {
@@ -102,15 +101,13 @@ std::string name_in_file(const MeasuredHoles& set, std::size_t position, const s
   for (const grid::Hole& hole : set.holes) {
     if (name_in_diagnosis(hole, position) == name) return hole.name;
   }
-  const bool edge =
-      grid::any_of(grid::kSheetEdges, [&](grid::SheetEdge e) { return grid::name(e) == name; });
-  return edge ? name : "";
+  return grid::edge_of(name) ? name : "";
 }
 
 /// N1, N2, ... except names in use.
 std::string free_name(const MeasuredHoles& set, int& number) {
   const std::string name = fmt::format("N{}", ++number);
-  const bool is_used = grid::any_of(set.holes, [&](const auto& hole) { return hole.name == name; });
+  const bool is_used = grid::any_of(set.holes, grid::having(&grid::Hole::name, name));
   return is_used ? free_name(set, number) : name;
 }
 

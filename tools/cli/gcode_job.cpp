@@ -14,7 +14,6 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/containers.hpp"
-#include "grid/files/file_identity.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
@@ -76,7 +75,7 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
   } else if (std::filesystem::is_fifo(path, unknown)) {
     std::ifstream pipe(path, std::ios::binary);
     text_ = whole(pipe);
-  } else if (!files::identity_of(path)) {
+  } else if (!std::filesystem::is_regular_file(path, unknown)) {
     text_ = files::read_whole_file(path);  // which reports the problem
   }
 }
@@ -103,10 +102,7 @@ gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
 grid::SourceFile GcodeText::source() const {
   files::Sha256 hash;
   std::string name = files::name_without_folders(path_);
-  if (text_) {
-    hash.add(*text_);
-    return {std::move(name), hash.text()};
-  }
+  if (text_) return {std::move(name), hash.add(*text_).text()};
   std::ifstream file(path_, std::ios::binary);
   std::array<char, 65536> bytes{};
   while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {

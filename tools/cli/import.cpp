@@ -32,12 +32,11 @@ int import_optical(const OpticalCommand& command) {
   files::OpticalOptions options = command.options;
   options.machine = read_machine_input(command.machine);
   options.order = files::named(files::kVisitingOrders, command.order);
-  const files::ReadOptical read = files::read(files::parse_optical, command.input, options);
-  write_output(command.output, files::write_grid(read.grid));
+  const MeasuredGrid scan = files::read(files::parse_optical, command.input, options);
+  write_output(command.output, files::write_grid(scan));
   say("{} of {} squares were visited; the sheet is assumed to be placed by hand, within {} mm and "
       "{} mrad{}",
-      read.grid.points.size(), read.squares, read.grid.sheet->shift_mm,
-      read.grid.sheet->rotation_mrad,
+      scan.points.size(), files::kOpticalSquares, scan.sheet->shift_mm, scan.sheet->rotation_mrad,
       options.order ? "" : "; the order of the visits is not known");
   say_next({"fit", command.output, "-o", "map.json"});
   return kDone;

@@ -45,7 +45,7 @@ void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Sec
   for (const grid::SourceFile& file : made_by->inputs)
     table.rows.push_back({{file.name, file.sha256}});
   Section section{"Where this comes from"};
-  section.say(fmt::format("Made by version {} with \"{}\".", made_by->version, command));
+  section.say("Made by version {} with \"{}\".", made_by->version, command);
   if (!table.rows.empty()) {
     table.caption = "sha256sum prints the same hash for an unchanged file.";
     section.blocks.push_back(std::move(table));

@@ -76,10 +76,10 @@ Section remarks_section(const CompensationMap& map, std::optional<double> wish_m
   }
   if (map.machine() != nullptr && !contents.distances &&
       contents.noise.source != grid::NoiseSource::stated) {
-    section.say(fmt::format(
-        "Your readings scatter by about {:.2f} mm{}.", grid::noise_at_tool_mm(map),
-        contents.noise.source == grid::NoiseSource::repeats ? ", judged by the marks measured twice"
-                                                            : ""));
+    section.say("Your readings scatter by about {:.2f} mm{}.", grid::noise_at_tool_mm(map),
+                contents.noise.source == grid::NoiseSource::repeats
+                    ? ", judged by the marks measured twice"
+                    : "");
   }
   for (const std::string& note : contents.notes) section.say(note);
   return section;

@@ -130,8 +130,7 @@ std::string fit_sentence(const CompensationMap& map) {
 
 std::string points_sentence(const CompensationMap& map) {
   const MapContents& contents = map.contents();
-  const auto bad = std::count_if(contents.points.begin(), contents.points.end(),
-                                 [](const auto& p) { return p.bad; });
+  const std::size_t bad = grid::count_where(contents.points, [](const auto& p) { return p.bad; });
   const std::size_t points = contents.points.size();
   const grid::HeldOutError& left_out = contents.accuracy.leave_one_out;
   if (map.machine() == nullptr && left_out.tool.maximum_mm == 0.0) {
@@ -188,7 +187,7 @@ const SettingWords& setting_words(model::Setting setting) {
       {"right motor, y"},      {"left chain's zero"}, {"right chain's zero"},
       {"sheet offset, right"}, {"sheet offset, up"},  {"sheet rotation, left", "mrad", 1000.0},
   };  // by Setting
-  return kSettingWords[static_cast<std::size_t>(setting)];
+  return kSettingWords[grid::as_size(setting)];
 }
 
 Table settings_table(const std::vector<SettingRow>& settings) {

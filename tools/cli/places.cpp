@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/places.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <memory>
 
 #include <fstream>
-#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "grid/containers.hpp"
-#include "grid/files/file_identity.hpp"
+#include "grid/files/sources.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -28,23 +26,25 @@ bool is_standard_output(const fs::path& path) {
   return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
-std::optional<files::FileIdentity> identity_of_output(const fs::path& path) {
-  return is_standard_output(path) ? files::identity_of_descriptor(STDOUT_FILENO)
-                                  : files::identity_of(path);
-}
-
-std::optional<files::FileIdentity> identity_of_input(const fs::path& path) {
-  return path == "-" ? files::identity_of_descriptor(STDIN_FILENO) : files::identity_of(path);
-}
-
-/// The identity of an output: the file, or its future name.
-std::string identity_as_place(const fs::path& path) {
+/// The place of an output: the file, or its future name; empty for a device.
+fs::path place_of_output(const fs::path& path) {
   if (is_standard_output(path)) return "-";
   std::error_code error;
-  if (fs::is_character_file(path, error)) return "";
-  if (const auto identity = files::identity_of(path))
-    return fmt::format("{}:{}", identity->device, identity->number);
-  return fs::weakly_canonical(fs::absolute(path, error), error).string();
+  if (fs::is_character_file(path, error)) return {};
+  return fs::weakly_canonical(fs::absolute(path, error), error);
+}
+
+bool is_regular(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+/// One regular file under any name: g.json, ./g.json, a link to it.
+bool is_among(const std::vector<fs::path>& files, const fs::path& path) {
+  std::error_code error;
+  return is_regular(path) && grid::any_of(files, [&](const fs::path& other) {
+           return fs::equivalent(path, other, error);
+         });
 }
 
 std::string beginning_of(const fs::path& path) {
@@ -66,8 +66,8 @@ class PlaceCheck {
       for (const std::string& path : place.paths()) {
         if (!place.kinds.empty()) {
           outputs_.emplace_back(path, &place);
-        } else if (const auto identity = identity_of_input(path)) {
-          inputs_.push_back(*identity);
+        } else {
+          inputs_.emplace_back(path == "-" ? "/dev/stdin" : path);
         }
       }
     }
@@ -86,19 +86,19 @@ class PlaceCheck {
   }
 
   void look_at(const std::string& path, const Place& place) {
-    const std::string taken = identity_as_place(path);
-    if (!taken.empty() && grid::contains(taken_, taken))
+    const fs::path taken = place_of_output(path);
+    const bool is_printed = taken == "-";
+    if (!taken.empty() && (grid::contains(taken_, taken) || is_among(taken_, taken)))
       return add(path, "a name given twice", "a different file for each output",
                  ProblemKind::output_repeated);
     taken_.push_back(taken);
-    const auto identity = identity_of_output(path);
-    if (identity && grid::contains(inputs_, *identity))
+    if (is_among(inputs_, is_printed ? "/dev/stdout" : path))
       return add(path, "a file that is read here",
                  "another name, because an input file is never replaced",
                  ProblemKind::output_is_input);
-    if (is_standard_output(path)) return;
+    if (is_printed) return;
     look_at_folder(path);
-    if (!identity || place.verb.is_given("--force")) return;
+    if (!is_regular(path) || place.verb.is_given("--force")) return;
     const std::string old = beginning_of(path);
     if (old.empty()) return;
     const Origin origin = files::origin_of(old);
@@ -136,8 +136,8 @@ class PlaceCheck {
   }
 
   std::vector<std::pair<std::string, const Place*>> outputs_;
-  std::vector<files::FileIdentity> inputs_;
-  std::vector<std::string> taken_;
+  std::vector<fs::path> inputs_;
+  std::vector<fs::path> taken_;
   std::vector<files::InputProblem> problems_;
 };
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,12 +22,11 @@ namespace chaintrue::cli {
 namespace {
 
 std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
-  std::vector<MarkPoint> measured;
-  for (const grid::MapPoint& point : map.contents().points) measured.push_back(point.mark);
   std::vector<FollowUpPlace> next;
   for (const MarkPoint& mark : plan.marks)
     next.push_back({.numbers = fmt::format("{}", next.size() + 1), .mark = mark});
-  return draw_follow_up(measured, next, map.machine()->bed);
+  return draw_follow_up(grid::mapped(map.contents().points, &grid::MapPoint::mark), next,
+                        map.machine()->bed);
 }
 
 /// Whether a worn chain would be distinguished from a shifted zero. Three sigmas are one chance in

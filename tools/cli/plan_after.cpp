@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "grid/containers.hpp"
@@ -171,11 +170,9 @@ std::string made_from_others(const PlanAfterOptions& options, const Diagnosis& f
         "{} was made from points and distances together: give its other files with --with.\n",
         options.after);
   }
-  std::vector<std::string> names;
-  for (const grid::MeasuredFile& file : measured.files()) names.push_back(file.name);
   return fmt::format("{} was made from other {} than those in {}: diagnose these first.\n",
                      options.after, points || !has_grids ? "holes" : "points",
-                     fmt::join(names, " and "));
+                     fmt::join(grid::mapped(measured.files(), &grid::MeasuredFile::name), " and "));
 }
 
 /// The lines for each file; readings of the machine go into the first that has any.

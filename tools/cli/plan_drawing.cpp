@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/raster.hpp"
 #include "grid/statistics.hpp"
 #include "tools/cli/svg.hpp"
 #include "tools/report/hole_labels.hpp"
@@ -28,7 +27,7 @@ std::string colour(double share) {
   return fmt::format("#{:02x}{:02x}{:02x}", mixed(255, 179), mixed(247, 88), mixed(236, 6));
 }
 
-BedView view_of(const Bed& bed) { return {bed, {kLeft, kTop}, kBedWide}; }
+BedView view_of(const Bed& bed) { return {grid::area_of(bed), {kLeft, kTop}, kBedWide}; }
 
 Svg begin(const BedView& view, std::string_view title, std::string_view description) {
   Svg svg(kBedWide + 2.0 * kLeft, kTop + view.high() + kBelow, "font-size=\"13\" fill=\"#222222\"",
@@ -208,12 +207,12 @@ BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed) {
                            {x_mm, from.y_mm},
                            {from.x_mm, y_mm},
                            {from.x_mm, -y_mm}};  // by SheetEdge
-  return feet[static_cast<std::size_t>(edge)];
+  return feet[grid::as_size(edge)];
 }
 
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const Bed& bed = plan.set.machine->bed;
-  const BedView view{bed, {kLeft, kSheetTop}, kBedWide};
+  const BedView view{grid::area_of(bed), {kLeft, kSheetTop}, kBedWide};
   const bool has_edges = grid::any_of(
       plan.set.distances, [](const auto& distance) { return distance.edge.has_value(); });
   const double high = kSheetTop + view.high() + kSheetBelow;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "tools/cli/sheet.hpp"
@@ -52,27 +51,6 @@ void add_tape_options(Verb verb, HolesPlanRequest& request) {
              "to be left out without --holes"}});
 }
 
-int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted) {
-  check(request, machine.bed);
-  request.progress = shown_progress();
-  const grid::HolesPlan plan =
-      value_of(grid::plan_holes(machine, request), "chaintrue plan", kNotSupportedOrOutside);
-  Outputs outputs = {
-      {wanted.drawing, draw_holes_plan(plan)},
-      {wanted.page, holes_page(plan, wanted.list)},
-      {wanted.gcode, holes_gcode(plan, wanted.drill)},
-      {wanted.list, is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan.set)
-                                                             : workshop_list(plan)}};
-  std::vector<MarkPoint> holes;
-  for (const grid::Hole& hole : plan.set.holes)
-    holes.push_back(model::identity_placement(hole.commanded));
-  add_answer(holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted,
-             outputs);
-  write_outputs(outputs);
-  say_lines(plan_in_words(plan, request));
-  return kDone;
-}
-
 namespace {
 
 using report::number_column;
@@ -110,24 +88,24 @@ Section distances_section(const MeasuredHoles& set, const grid::FittedDistances&
                               distance.rejected, "left out"));
   }
   Section section{"Distance by distance", {}, true, Detail::verbose, /*is_titled=*/false};
-  if (!file.empty()) section.say(fmt::format("{}:", file));
+  if (!file.empty()) section.say("{}:", file);
   section.blocks.emplace_back(std::move(table));
   return section;
 }
 
 void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& distances) {
   distances.say(
-      fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
-                  "(readings relative to the model's lengths).",
-                  100.0 * knowledge.mean[6], 100.0 * std::sqrt(knowledge.covariance(6, 6)),
-                  100.0 * knowledge.mean[7], 100.0 * std::sqrt(knowledge.covariance(7, 7))));
+      "Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % "
+      "(readings relative to the model's lengths).",
+      100.0 * knowledge.mean[6], 100.0 * std::sqrt(knowledge.covariance(6, 6)),
+      100.0 * knowledge.mean[7], 100.0 * std::sqrt(knowledge.covariance(7, 7)));
   distances.say("Left out: measured minus predicted by the other readings, mm.");
 }
 
 std::string distances_in_number(const MeasuredHoles& set) {
-  const auto edges = std::count_if(set.distances.begin(), set.distances.end(),
-                                   [](const auto& distance) { return distance.edge.has_value(); });
-  const auto all = static_cast<std::ptrdiff_t>(set.distances.size());
+  const std::size_t edges = grid::count_where(
+      set.distances, [](const auto& distance) { return distance.edge.has_value(); });
+  const std::size_t all = set.distances.size();
   return edges == 0 ? fmt::format("{} distances", all)
                     : fmt::format("{} distances and {} to the sheet's edges", all - edges, edges);
 }
@@ -150,6 +128,9 @@ std::string workshop_list(const grid::HolesPlan& plan) {
   return text;
 }
 
+namespace {
+
+/// What the plan's set will determine, and what it cannot distinguish.
 std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& request) {
   std::string text = fmt::format(
       "{} holes, {}. With errors of {:g} mm for the tape and {:g} mm for a hole (one sigma) the "
@@ -189,6 +170,29 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
       "detectable: {}.\nIndistinguishable: {}.\n",
       listed(clear), listed(doubtful), listed(unseen), listed(equal));
   return text;
+}
+
+}  // namespace
+
+int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted) {
+  check(request, machine.bed);
+  request.progress = shown_progress();
+  const grid::HolesPlan plan =
+      value_of(grid::plan_holes(machine, request), "chaintrue plan", kNotSupportedOrOutside);
+  Outputs outputs = {
+      {wanted.drawing, draw_holes_plan(plan)},
+      {wanted.page, holes_page(plan, wanted.list)},
+      {wanted.gcode, holes_gcode(plan, wanted.drill)},
+      {wanted.list, is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan.set)
+                                                             : workshop_list(plan)}};
+  const auto holes = grid::mapped(plan.set.holes, [](const grid::Hole& hole) {
+    return model::identity_placement(hole.commanded);
+  });
+  add_answer(holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted,
+             outputs);
+  write_outputs(outputs);
+  say_lines(plan_in_words(plan, request));
+  return kDone;
 }
 
 }  // namespace chaintrue::cli

@@ -3,7 +3,6 @@
 /// chaintrue query: chain lengths for points, and the point for chain lengths.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 

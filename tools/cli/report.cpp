@@ -3,13 +3,13 @@
 /// chaintrue report: a map, a diagnosis or anchors as one HTML page that needs no network.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/sources.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
@@ -31,8 +31,7 @@ Section measured_section(const CompensationMap& map) {
   const auto row = [&table](std::string what, std::string value) {
     table.rows.push_back({{std::move(what), std::move(value)}});
   };
-  const auto bad = std::count_if(contents.points.begin(), contents.points.end(),
-                                 [](const auto& p) { return p.bad; });
+  const std::size_t bad = grid::count_where(contents.points, [](const auto& p) { return p.bad; });
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     row("holes and a tape",
@@ -76,8 +75,7 @@ Section remaining_section(const MapContents& contents) {
     section.say(contents.notes[i]);
   }
   if (contents.notes.size() > kMostNotes) {
-    section.say(
-        fmt::format("{} more remarks are in the full report.", contents.notes.size() - kMostNotes));
+    section.say("{} more remarks are in the full report.", contents.notes.size() - kMostNotes);
   }
   section.say(
       "After taking the chains off, or after a month of work, measure three to five "

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <sstream>
 
 #include "grid/containers.hpp"

@@ -134,10 +134,8 @@ CompensationMap with_settings_of(const std::string& settings, const std::string&
 
 bool was_made_from(const std::string& made, const std::string& from) {
   const auto made_by = files::made_by_of(files::read_whole_file(made), made);
-  files::Sha256 hash;
-  hash.add(files::read_whole_file(from));
-  return made_by && grid::any_of(made_by->inputs,
-                                 [&](const auto& input) { return input.sha256 == hash.text(); });
+  const std::string hash = files::Sha256().add(files::read_whole_file(from)).text();
+  return made_by && grid::any_of(made_by->inputs, grid::having(&grid::SourceFile::sha256, hash));
 }
 
 std::optional<model::ControllerSettings> settings_before(const std::string& map) {

@@ -88,21 +88,6 @@ std::string sheet_csv(const Sheet& sheet) {
   return text;
 }
 
-std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedNoise& noise) {
-  MeasuredGrid grid;
-  grid.name = machine.name;
-  grid.machine = machine;
-  grid.noise = noise;
-  for (const SheetVisit& visit : visits_of(sheet)) {
-    grid::MeasuredPoint point;
-    point.mark = visit.mark;
-    if (sheet.of == SheetOf::places) point.commanded = model::identity_placement(visit.mark);
-    point.order = static_cast<int>(visit.number);
-    grid.points.push_back(point);
-  }
-  return files::write_grid_sheet(grid);
-}
-
 std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   if (sheet.of == SheetOf::places) {
     std::vector<DrillPlace> places;
@@ -127,15 +112,35 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
 }
 
 std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options) {
-  std::vector<DrillPlace> places;
-  for (const grid::Hole& hole : plan.set.holes)
-    places.push_back({"hole " + hole.name, hole.commanded});
+  const auto places = grid::mapped(plan.set.holes, [](const grid::Hole& hole) {
+    return DrillPlace{"hole " + hole.name, hole.commanded};
+  });
   return drill_gcode(fmt::format("{} holes", places.size()), places, options);
 }
 
 bool is_json_wanted(bool json, const std::string& output) {
   return output == "-" ? json : output.ends_with(".json");
 }
+
+namespace {
+
+/// The list as a chaintrue_grid, including the machine and the noise.
+std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedNoise& noise) {
+  MeasuredGrid grid;
+  grid.name = machine.name;
+  grid.machine = machine;
+  grid.noise = noise;
+  for (const SheetVisit& visit : visits_of(sheet)) {
+    grid::MeasuredPoint point;
+    point.mark = visit.mark;
+    if (sheet.of == SheetOf::places) point.commanded = model::identity_placement(visit.mark);
+    point.order = static_cast<int>(visit.number);
+    grid.points.push_back(point);
+  }
+  return files::write_grid_sheet(grid);
+}
+
+}  // namespace
 
 Outputs sheet_outputs(const Sheet& sheet, const Machine& machine, const StatedNoise& noise,
                       const PlanOutputs& outputs, const std::string& expected) {
@@ -151,9 +156,9 @@ Outputs sheet_outputs(const Sheet& sheet, const Machine& machine, const StatedNo
 void add_answer(const std::vector<MarkPoint>& places, const std::vector<std::size_t>& visits,
                 const std::string& expected, const PlanOutputs& outputs, Outputs& written) {
   if (!outputs.json || outputs.list == "-") return;
-  std::vector<std::string> pairs;
-  for (const MarkPoint& place : places)
-    pairs.push_back(fmt::format("[{}, {}]", place.x_mm, place.y_mm));
+  const auto pairs = grid::mapped(places, [](const MarkPoint& place) {
+    return fmt::format("[{}, {}]", place.x_mm, place.y_mm);
+  });
   std::vector<std::size_t> order = visits;
   if (order.empty()) order = grid::numbers_below(places.size());
   written.push_back({"-", fmt::format("{{\"marks\": [{}],\n\"visits\": [{}],\n{}}}\n",

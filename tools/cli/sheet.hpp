@@ -70,8 +70,6 @@ std::vector<SheetVisit> visits_of(const Sheet& sheet);
 
 /// order,commanded_x_mm,commanded_y_mm,x_mm,y_mm or order,x_mm,y_mm,left_mm,right_mm.
 std::string sheet_csv(const Sheet& sheet);
-/// The list as a chaintrue_grid, including the machine and the noise.
-std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedNoise& noise);
 
 struct DrillOptions {
   double depth_mm = 3.0;
@@ -171,8 +169,6 @@ void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& 
 std::string distances_in_number(const MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.
 std::string workshop_list(const grid::HolesPlan& plan);
-/// What the plan's set will determine, and what it cannot distinguish.
-std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& request);
 
 // The next measurements of a diagnosis, as a list for the workshop and as lines for the grid's
 // file; those for the holes' file are in follow_up_holes.hpp.

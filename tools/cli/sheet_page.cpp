@@ -98,7 +98,7 @@ std::string page_of(const std::string& title, const std::string& bed, std::strin
 std::string drawing_of(const Sheet& sheet, const Bed& bed) {
   constexpr double kDrawingWide = 900.0;
   constexpr double kEdge = 20.0;
-  const BedView view{bed, {kEdge, kEdge}, kDrawingWide};
+  const BedView view{grid::area_of(bed), {kEdge, kEdge}, kDrawingWide};
   const auto x = [&](MarkPoint at) { return view.x(at.x_mm); };
   const auto y = [&](MarkPoint at) { return view.y(at.y_mm); };
   Svg svg(kDrawingWide + 2.0 * kEdge, view.high() + 2.0 * kEdge, "role=\"img\"",

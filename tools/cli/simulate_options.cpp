@@ -96,7 +96,7 @@ void throw_if_impossible(const Machine& truth, OptionProblems& problems) {
 void require_bad_points(const SimulateOptions& options, std::size_t most, std::string_view what,
                         OptionProblems& problems) {
   const int bad = options.spec.bad.count;
-  if (static_cast<std::size_t>(bad) <= most) return;
+  if (grid::as_size(bad) <= most) return;
   problems.add("--bad-points", fmt::format("{}", bad),
                fmt::format("at most one for each of the {} {}", most, what),
                ProblemKind::out_of_range);
@@ -178,11 +178,9 @@ std::optional<AppliedEffect> parse_form(const std::string& argument, OptionProbl
 }  // namespace
 
 std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProblems& problems) {
-  std::vector<AppliedEffect> effects;
-  for (const std::string& argument : arguments) {
-    effects.push_back(parse_form(argument, problems).value_or(AppliedEffect{}));
-  }
-  return effects;
+  return grid::mapped(arguments, [&](const std::string& argument) {
+    return parse_form(argument, problems).value_or(AppliedEffect{});
+  });
 }
 
 std::vector<AppliedEffect> parse_effects(const Words& arguments, const Machine& machine,

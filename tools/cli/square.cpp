@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/plotter/test_drawing.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/svg.hpp"
@@ -142,9 +143,8 @@ std::string as_table(const model::CutSquare& square, const SquareTask& task) {
       fmt::format("{:<18}{:>12}{:>12}{:>10}\n", "", "commanded_mm", "cut_mm", "bow_mm");
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
-    text += fmt::format("{:<18}{:>12.3f}{:>12.3f}{:>+10.3f}\n",
-                        kSideNames[static_cast<std::size_t>(side)], task.size_mm, cut.length_mm,
-                        cut.bow_mm);
+    text += fmt::format("{:<18}{:>12.3f}{:>12.3f}{:>+10.3f}\n", kSideNames[grid::as_size(side)],
+                        task.size_mm, cut.length_mm, cut.bow_mm);
   }
   const double diagonal = task.size_mm * std::sqrt(2.0);
   text += fmt::format("{:<18}{:>12.3f}{:>12.3f}\n{:<18}{:>12.3f}{:>12.3f}\n", "diagonal rising",
@@ -160,7 +160,7 @@ std::string as_json(const model::CutSquare& square, const SquareTask& task) {
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
     text += fmt::format("    \"{}\": {{\"length_mm\": {}, \"bow_mm\": {}}}{}\n",
-                        kSideNames[static_cast<std::size_t>(side)], cut.length_mm, cut.bow_mm,
+                        kSideNames[grid::as_size(side)], cut.length_mm, cut.bow_mm,
                         side == model::SquareSide::bottom ? "" : ",");
   }
   text += fmt::format(

@@ -3,7 +3,7 @@
 /// Pictures made without Vega: an SVG builder, and the placement of the bed in it.
 ///
 /// \code
-///   const BedView view{machine.bed, {30, 80}, 900};
+///   const BedView view{grid::area_of(machine.bed), {30, 80}, 900};
 ///   Svg svg(960, view.high() + 170, "font-size=\"13\"", "28 points to measure");
 ///   svg.circle(view.x(100), view.y(200), 4, "fill=\"#000\"");
 ///   write_file("plan.svg", svg.finished());
@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/raster.hpp"
 #include "grid/synthetic/effect_picture.hpp"
 #include "model/machine.hpp"
 #include "model/square.hpp"
@@ -25,16 +26,16 @@
 
 namespace chaintrue::cli {
 
-/// From millimetres on a bed, zero in its middle and y up, to a picture's units.
+/// From millimetres of a rectangle, y up, to a picture's units.
 struct BedView {
-  model::Bed bed;
+  interp::Rectangle area;
   report::ToolVector corner;  ///< the upper left one in the picture
   double wide;
 
-  double scale() const { return wide / bed.width_mm; }
-  double x(double x_mm) const { return corner.x_mm + scale() * (x_mm + 0.5 * bed.width_mm); }
-  double y(double y_mm) const { return corner.y_mm + scale() * (0.5 * bed.height_mm - y_mm); }
-  double high() const { return scale() * bed.height_mm; }
+  double scale() const { return wide / area.width(); }
+  double x(double x_mm) const { return corner.x_mm + scale() * (x_mm - area.x_min); }
+  double y(double y_mm) const { return corner.y_mm + scale() * (area.y_max - y_mm); }
+  double high() const { return scale() * area.height(); }
 };
 
 /// Texts are escaped; a `look` is a list of attributes as written in an element.

@@ -4,7 +4,6 @@
 /// split and merged at will.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -256,11 +255,11 @@ std::vector<FolderFile> results() {
 
 int assemble(Verb verb, const sweep::SweepSpec& spec, const files::FinishedCells& cells,
              const SweepOptions& options) {
-  const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
+  const std::size_t missing = grid::count_equal(cells, std::nullopt);
   if (missing > 0) {
     say("chaintrue sweep: {} of {} cells are finished; results.csv is written once the parts of "
         "all shards are in {}/parts",
-        static_cast<std::ptrdiff_t>(cells.size()) - missing, cells.size(), options.directory);
+        cells.size() - missing, cells.size(), options.directory);
     Words next = {"sweep", options.specification, "-o", options.directory};
     add_option_words(next, "--effects", options.effects);
     next.emplace_back("--resume");

@@ -122,9 +122,7 @@ void print_warnings(const std::vector<files::Warning>& warnings) {
 }
 
 std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings) {
-  std::vector<std::string> sentences;
-  for (const files::Warning& warning : warnings) sentences.push_back(warning.sentence);
-  return sentences;
+  return grid::mapped(warnings, &files::Warning::sentence);
 }
 
 namespace {
@@ -132,8 +130,8 @@ namespace {
 /// `kLast` is the enumerator of the last name, which ensures that every enumerator has a name.
 template <auto kLast, std::size_t n>
 std::string_view name_in(decltype(kLast) reason, const std::string_view (&names)[n]) {
-  static_assert(n == static_cast<std::size_t>(kLast) + 1);
-  return names[static_cast<std::size_t>(reason)];
+  static_assert(n == grid::as_size(kLast) + 1);
+  return names[grid::as_size(reason)];
 }
 
 }  // namespace

@@ -21,6 +21,8 @@
 /// Pure functions of their arguments: safe from any thread.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -171,6 +173,10 @@ struct Section {
 
   void say(std::string text, Detail text_detail = Detail::always, bool is_note = false) {
     blocks.emplace_back(Paragraph{std::move(text), text_detail, is_note});
+  }
+  template <class First, class... Args>
+  void say(fmt::format_string<First, Args...> text, First&& first, Args&&... more) {
+    say(fmt::format(text, std::forward<First>(first), std::forward<Args>(more)...));
   }
 };
 

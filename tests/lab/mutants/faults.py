@@ -148,7 +148,7 @@ FAULTS = [
           "line.substr(check + 1) != check_of(line.substr(0, check))",
           "false",
           "sweep"),
-    Fault("content_hash_unchecked", "grid/files/provenance_record.cpp",
+    Fault("content_hash_unchecked", "grid/files/sources.cpp",
           "hash.json() != content_hash(at.json())",
           "false",
           "query"),

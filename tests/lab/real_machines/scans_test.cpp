@@ -49,8 +49,7 @@ class RealScans : public testing::Test {
                     files::Tolerances::unexplained)
             .machine;
     options.pitch_mm = kPitchMm;
-    MeasuredGrid grid =
-        files::read(files::parse_optical, data_ / "optical_grid" / file, options).grid;
+    MeasuredGrid grid = files::read(files::parse_optical, data_ / "optical_grid" / file, options);
     grid.noise = StatedNoise{0.1, 0.3, 12.0};
     return grid;
   }

@@ -116,7 +116,7 @@ Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& g
                                       grid::files::Tolerances::unexplained)
                         .machine;
   Scan result{scan.stem().string(), machine_of(options.machine),
-              grid::files::read(grid::files::parse_optical, scan, options).grid};
+              grid::files::read(grid::files::parse_optical, scan, options)};
   result.grid.noise = grid::StatedNoise{0.1, 0.3, 12.0};
   const auto lengths = grid::length_points(result.grid);
   if (!lengths) throw std::runtime_error(lengths.error());
