@@ -19,10 +19,16 @@
 #include <numeric>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
+
+/// Positions in a list, of rows in a matrix and of its columns; a flag for each of a list.
+using Indices = std::vector<std::size_t>;
+using Rows = std::vector<Index>;
+using ColumnSet = std::vector<Index>;
+using Flags = std::vector<bool>;
 
 constexpr std::size_t as_size(std::integral auto position) {
   return static_cast<std::size_t>(position);

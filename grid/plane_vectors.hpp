@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -33,5 +33,9 @@ template <class A, class B>
 double distance_mm(const A& a, const B& b) {
   return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
 }
+
+// The index of a chain in a pair of rows or numbers: left, right.
+
+constexpr Index row_of(model::Side side) { return side == model::Side::left ? 0 : 1; }
 
 }  // namespace chaintrue::grid

@@ -8,9 +8,9 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_mechanism.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "grid/belts/measured_belts.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::belts {
 

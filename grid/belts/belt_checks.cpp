@@ -10,12 +10,12 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid {

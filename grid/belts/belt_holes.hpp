@@ -29,8 +29,8 @@
 #include <vector>
 
 #include "grid/belts/anchor_fit.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_holes.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

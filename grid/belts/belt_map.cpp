@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/calibration/sheet_placement.hpp"
 

@@ -39,8 +39,8 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belt_holes.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/tool_displacement.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

@@ -5,8 +5,8 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/controller_error.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_controller.hpp"
 
 namespace chaintrue::grid {

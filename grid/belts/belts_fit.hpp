@@ -36,7 +36,7 @@
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {

@@ -6,8 +6,8 @@
 
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid {

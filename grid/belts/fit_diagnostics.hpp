@@ -22,6 +22,7 @@
 /// Source: B. Triggs et al., Bundle Adjustment - A Modern Synthesis (2000), section 6, for (1).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -29,8 +30,8 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/belt_lengths.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::belts {
@@ -121,5 +122,26 @@ class FitDiagnostics {
   MatrixXd precision_;
   MatrixXd covariance_;
 };
+
+// Assembles a BeltsFit from anchors, places and their covariances, with the error of predicting
+// the lower belts from the upper two at left-out places. Private to grid/belts and what reads its
+// fits.
+
+/// Everything except the predictions of each half of the places by the other. `belts` and `view`
+/// use the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
+/// logarithm too.
+BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
+                    const MatrixXd& covariance);
+
+/// A fit with what counts given, and the readings as its anchors explain them.
+struct Refitted {
+  AnchorFit frame;
+  MeasuredBelts belts;
+};
+using Refit = std::function<std::optional<Refitted>(const AnchorFit& from)>;
+/// Every second place, in the order of the visits, by the others, and those by these. Empty if a
+/// half has fewer than kFewestBeltPoints, or has no fit.
+std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, const AnchorFit& frame,
+                                                const Refit& refit);
 
 }  // namespace chaintrue::grid::belts

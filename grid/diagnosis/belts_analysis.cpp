@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/eigen.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/failed.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/belts/fit_report.hpp"
-#include "grid/diagnosis/belts_report.hpp"
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/eigen.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 

@@ -3,7 +3,7 @@
 /// What a diagnosis of four belts finds besides causes and their probabilities: anchors, the error
 /// of one belt's reading, the prediction of the lower belts by the upper two, and the tool's
 /// position. "Before" is with the anchors fitted alone, as the machine does; "after" is with the
-/// named causes. Anchors are averaged over all possible causes, as in a fit (averaged_anchors.hpp).
+/// named causes. Anchors are averaged over all possible causes, as in a fit (belts_analysis.hpp).
 /// In the belts' mm: their scale is unknown without a tape.
 #pragma once
 

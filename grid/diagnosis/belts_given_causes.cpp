@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_system.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 
 #include <fmt/format.h>
 
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/eigen.hpp"
 #include "grid/raster.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "grid/belts/scale_by_tape.hpp"
-#include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/verdict_words.hpp"
+#include "grid/diagnosis/words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/belt_effects.hpp"
 

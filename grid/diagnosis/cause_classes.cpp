@@ -6,8 +6,8 @@
 #include "grid/diagnosis/decision.hpp"
 
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -13,7 +13,7 @@
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/order_search.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/map/largest_error.hpp"
 #include "grid/parallel.hpp"

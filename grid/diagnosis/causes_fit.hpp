@@ -8,7 +8,7 @@
 ///   chain,
 ///   - points in blocks of the bed that neither map was fitted to come out better with it, by more
 ///     than the standard error of the difference, the surfaces of both maps included, and do so as
-///     well where each block's naming is repeated without it (gain.hpp).
+///     well where each block's naming is repeated without it (held_out_improvement.hpp).
 ///
 ///   d_b = sum over block b of (|e_plain|^2 - |e|^2),  n_b points,  B blocks,  D = sum d_b / sum n_b
 ///   se^2 = B / (B - 1) sum (d_b - n_b D)^2 / (sum n_b)^2                                        (1)

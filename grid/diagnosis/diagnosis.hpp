@@ -22,12 +22,12 @@
 #include <vector>
 
 #include "grid/diagnosis/belts_findings.hpp"
-#include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/law.hpp"
+#include "grid/diagnosis/options.hpp"
 #include "grid/diagnosis/pictures.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/observation/visiting_order.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -220,7 +220,7 @@ struct HeldOutImprovement {
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
   /// The reduction of the tool's mean square error over the measured area
-  /// (held_out_fold.hpp). Held-out blocks show a larger reduction, since both models
+  /// (held_out_improvement.hpp). Held-out blocks show a larger reduction, since both models
   /// extrapolate there.
   double drop_mm2 = 0.0;
   /// That drop relative to the mean square before it, both without the noise of the readings.

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "grid/diagnosis/ties.hpp"
-#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -32,7 +32,7 @@
 
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

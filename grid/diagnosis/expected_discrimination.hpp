@@ -32,7 +32,7 @@
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

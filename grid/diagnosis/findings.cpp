@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
-#include "grid/eigen.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -7,9 +7,9 @@
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/ties.hpp"
-#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -8,8 +8,8 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "grid/diagnosis/causes_given_law.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/failed.hpp"

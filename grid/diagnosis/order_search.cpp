@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "grid/diagnosis/workshop_units.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid::diagnosis {

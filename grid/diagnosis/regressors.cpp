@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "grid/chain_rows.hpp"
 #include "grid/diagnosis/law_curves.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/eigen.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -45,11 +45,11 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "interp/reml.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/failure.hpp"

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
@@ -24,6 +23,7 @@
 #include "grid/estimation/unknowns.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "interp/measured_region.hpp"
 

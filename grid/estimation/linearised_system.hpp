@@ -20,9 +20,9 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/observation_set.hpp"
 #include "grid/estimation/unit_whitening.hpp"
+#include "interp/eigen.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid::estimation {

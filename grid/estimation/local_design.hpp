@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
 #include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "interp/reml.hpp"
 

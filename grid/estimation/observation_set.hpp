@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/reading_model.hpp"
 

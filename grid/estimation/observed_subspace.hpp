@@ -20,8 +20,8 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "interp/bspline_basis.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {

@@ -15,8 +15,8 @@
 #include <functional>
 #include <optional>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::estimation {

@@ -24,8 +24,8 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
+#include "interp/eigen.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::grid::estimation {

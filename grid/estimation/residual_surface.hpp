@@ -16,9 +16,9 @@
 /// Order of the coefficients: settings, e_left, e_right, s_left, s_right (FitColumns).
 #pragma once
 
-#include "grid/chain_rows.hpp"
-#include "grid/eigen.hpp"
+#include "grid/plane_vectors.hpp"
 #include "interp/bspline_basis.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/reading_model.hpp"
 

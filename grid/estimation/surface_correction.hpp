@@ -6,9 +6,9 @@
 
 #include <optional>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::estimation {

@@ -10,8 +10,8 @@
 /// Private to grid/estimation.
 #pragma once
 
-#include "grid/chain_rows.hpp"
-#include "grid/eigen.hpp"
+#include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::estimation {
 

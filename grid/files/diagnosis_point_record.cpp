@@ -2,11 +2,11 @@
 // Places on the bed in a chaintrue_diagnosis file: the points as the pictures show them, and what
 // to measure next.
 
-#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::files {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/kinematics.hpp"
 

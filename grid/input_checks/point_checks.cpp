@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_accounts.hpp"
 #include "grid/input_checks/whole_checks.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {

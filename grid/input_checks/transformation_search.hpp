@@ -21,9 +21,9 @@
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/robust_trend.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 

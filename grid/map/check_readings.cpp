@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -23,6 +22,7 @@
 #include "grid/observation/observation.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_changes.hpp"

@@ -20,9 +20,9 @@
 #include <variant>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/map_field.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

@@ -26,9 +26,9 @@
 #include <optional>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/map/map_in_frame.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

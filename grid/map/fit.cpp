@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -16,6 +15,7 @@
 #include "grid/map/map_accuracy.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

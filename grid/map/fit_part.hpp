@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "grid/map/fit.hpp"
-#include "grid/map/fitted_distances.hpp"
 #include "grid/map/fitted_points.hpp"
 
 namespace chaintrue::grid {

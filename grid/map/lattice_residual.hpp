@@ -16,7 +16,7 @@
 #include <array>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {

@@ -17,8 +17,8 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "grid/eigen.hpp"
 #include "grid/map/measured_area.hpp"
+#include "interp/eigen.hpp"
 #include "interp/surface.hpp"
 #include "model/failure.hpp"
 #include "model/kinematics.hpp"

@@ -17,10 +17,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
-#include "grid/map/check_words.hpp"
+#include "grid/map/check_evidence.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

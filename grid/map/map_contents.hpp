@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/map/lattice_residual.hpp"
 #include "grid/map/measured_area.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "interp/eigen.hpp"
 #include "interp/tensor_spline.hpp"
 #include "model/calibration/sheet_placement.hpp"
 

@@ -10,10 +10,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/chain_rows.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/map_contents.hpp"
+#include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/measured_region.hpp"
 #include "interp/tensor_spline.hpp"
 #include "model/reading_model.hpp"

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/controllers/payout.hpp"
 

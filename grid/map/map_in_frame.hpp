@@ -6,9 +6,9 @@
 
 #include <array>
 
-#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
 #include "grid/map/tool_displacement.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/mechanism.hpp"
 

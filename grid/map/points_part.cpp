@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -15,6 +14,7 @@
 #include "grid/map/map_parts.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "grid/raster.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 namespace {

@@ -22,8 +22,8 @@
 #include <cmath>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {

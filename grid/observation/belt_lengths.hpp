@@ -38,9 +38,9 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/observation/taped_ends.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 

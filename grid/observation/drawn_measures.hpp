@@ -23,8 +23,8 @@
 #include <string>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 

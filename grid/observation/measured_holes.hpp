@@ -20,8 +20,8 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "interp/eigen.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid {

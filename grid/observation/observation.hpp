@@ -35,7 +35,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/effects/effect.hpp"

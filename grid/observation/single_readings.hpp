@@ -11,11 +11,11 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 

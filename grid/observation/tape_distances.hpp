@@ -28,9 +28,9 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 

@@ -22,7 +22,7 @@
 #include <tl/expected.hpp>
 #include <variant>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/mechanism.hpp"
 
 namespace chaintrue::grid::observation {

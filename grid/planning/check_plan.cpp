@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/planning/distance_choice.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/chains/chain_changes.hpp"
 

@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/planning/holes_plan.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {

@@ -22,10 +22,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
-#include "grid/map/fitted_distances.hpp"
+#include "grid/map/fitted_points.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/progress.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

@@ -22,8 +22,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/plotter/test_drawing.hpp"
+#include "interp/eigen.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <optional>
 
-#include "grid/eigen.hpp"
 #include "grid/plotter/drawing_fit.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

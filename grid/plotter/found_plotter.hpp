@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/plotter/drawing_fit.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

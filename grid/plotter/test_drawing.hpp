@@ -89,4 +89,23 @@ std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing);
 /// "the length A-B", "the bow of A-B at E".
 std::string words_of(const TestDrawing& drawing, std::size_t measure);
 
+// The page that a V-plotter draws for its test drawing, and the list of what to measure on it.
+//
+// \code
+//   const TestDrawing drawing = planned_drawing(machine, PlotterFirmware::fluidnc);
+//   write("page.gcode", drawing_gcode(drawing));
+//   write("sheet.txt", measuring_list(drawing));
+// \endcode
+
+/// In the controller's coordinates (TestDrawing::pins_middle), millimetres, absolute: a cross at each
+/// point, then every line with a bow to measure, from its first cross to its last.
+std::string drawing_gcode(const TestDrawing& drawing);
+
+/// For a mural, which is sent a picture: 1 unit is 1 mm, the origin is the left top corner of the
+/// drawing area.
+std::string drawing_svg(const TestDrawing& drawing);
+
+/// What to measure, a numbered line each with a place for the value, in the order of the measures.
+std::string measuring_list(const TestDrawing& drawing);
+
 }  // namespace chaintrue::grid

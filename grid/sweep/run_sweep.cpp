@@ -7,11 +7,11 @@
 #include <mutex>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::sweep {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/synthetic/strength.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::synthetic {
 

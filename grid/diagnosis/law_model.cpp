@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/law_residuals.hpp"
+#include "grid/diagnosis/law_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
