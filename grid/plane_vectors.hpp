@@ -20,7 +20,7 @@ template <class Position>
 Vector2d vector_of(const Position& at) {
   return {at.x_mm, at.y_mm};
 }
-inline Vector2d vector_of(const model::ChainLengths& lengths) {
+inline Vector2d vector_of(const ChainLengths& lengths) {
   return {lengths.left_mm, lengths.right_mm};
 }
 
@@ -36,6 +36,6 @@ double distance_mm(const A& a, const B& b) {
 
 // The index of a chain in a pair of rows or numbers: left, right.
 
-constexpr Index row_of(model::Side side) { return side == model::Side::left ? 0 : 1; }
+constexpr Index row_of(Side side) { return side == Side::left ? 0 : 1; }
 
 }  // namespace chaintrue::grid

@@ -20,9 +20,6 @@
 
 namespace chaintrue::grid {
 
-using model::Belt;
-using model::kBelts;
-
 const std::array<std::vector<BeltPair>, 9>& belt_swaps() {
   constexpr std::array<BeltPair, 6> kPairs = {{{Belt::tl, Belt::tr},
                                                {Belt::bl, Belt::br},
@@ -94,7 +91,7 @@ struct Frame {
   double far_from_commands_mm = 0.0;
 };
 
-double far_from_commands(const MeasuredBelts& belts, const std::vector<model::FramePoint>& places) {
+double far_from_commands(const MeasuredBelts& belts, const std::vector<FramePoint>& places) {
   Vector2d sum = Vector2d::Zero();
   std::vector<Vector2d> off;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -108,7 +105,7 @@ double far_from_commands(const MeasuredBelts& belts, const std::vector<model::Fr
 
 /// A share of the extent of the commands: mirrored ones are off by as much as that.
 bool are_commands_far(const MeasuredBelts& belts, double far_mm) {
-  std::vector<model::FramePoint> origin(belts.points.size());
+  std::vector<FramePoint> origin(belts.points.size());
   const double reach_mm = far_from_commands(belts, origin);
   return reach_mm > 0.0 && far_mm > 0.5 * reach_mm;
 }
@@ -181,7 +178,7 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
   // A lost digit or another frame; smaller errors are left to the fit.
   constexpr double kNowhereMm = 100.0;
   std::vector<NowherePoint> result;
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     int rejected = 0;
     for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
@@ -202,13 +199,13 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
 std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
                                              const belts::AnchorFit& frame) {
   std::vector<BeltQuestion> result;
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
   const double scale_mm = std::max(frame.residual_sigma_mm, 0.5);
   const double gross_mm = std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
       if (frame.counting[k][belt]) continue;
-      model::PerBelt<bool> others = belts::kAllBelts;
+      PerBelt<bool> others = belts::kAllBelts;
       others[belt] = false;
       const auto place = belts::nearest_place(machine, belts.points[k], others);
       const auto reading = model::reading_at(machine, belt, place);
@@ -252,8 +249,8 @@ std::optional<Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
     return vector_of(anchor);
   }
   if (!belts.machine.anchors_known) return std::nullopt;
-  const model::FramePoint centre = model::centre_of(belts.machine);
-  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  const FramePoint centre = model::centre_of(belts.machine);
+  const BedPoint at = std::get<CutHole>(end).commanded;
   return Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
 }
 

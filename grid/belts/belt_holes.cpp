@@ -16,8 +16,6 @@
 
 namespace chaintrue::grid::belts {
 
-using model::FramePoint;
-
 namespace {
 
 /// Writes the rows of a set from `row` on, after those of the sets before it; false if the machine
@@ -32,7 +30,7 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
   const FramePoint centre = model::centre_of(holes.machine);
   const auto count = std::ssize(holes.set.holes);
   const Index first = 2 * std::ssize(all.marks);
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   MatrixXd marks_by_frame = MatrixXd::Zero(2 * count, kFrameUnknowns);
   MatrixXd laid(2 * count, 3);
   for (Index i = 0; i < count; ++i) {
@@ -45,7 +43,7 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
         {factor * (place->at.x() - origin.x_mm), factor * (place->at.y() - origin.y_mm)});
     marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_parameter;
     marks_by_frame.block<2, 1>(2 * i, kAnchorUnknowns) = mark;
-    laid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(marks.back());
+    laid.middleRows<2>(2 * i) = SheetPlacement{}.sensitivity(marks.back());
   }
   const observation::DistanceGeometry geometry = observation::distance_geometry(holes.set, marks);
   const Index own = geometry.predicted_mm.size();

@@ -89,10 +89,10 @@ double log_prior(double factor, double dof) {
   return -dof * std::log(factor) - 0.5 * dof / (factor * factor);
 }
 
-double extent_mm(const std::vector<model::MarkPoint>& marks) {
+double extent_mm(const std::vector<MarkPoint>& marks) {
   double widest = 0.0;
-  for (const model::MarkPoint& a : marks) {
-    for (const model::MarkPoint& b : marks) widest = std::max(widest, distance_mm(a, b));
+  for (const MarkPoint& a : marks) {
+    for (const MarkPoint& b : marks) widest = std::max(widest, distance_mm(a, b));
   }
   return widest;
 }
@@ -215,9 +215,6 @@ std::optional<TapedState> converged_state(const KnownFrame& known,
 }  // namespace chaintrue::grid::belts
 
 namespace chaintrue::grid {
-
-using model::Belt;
-using model::kBelts;
 
 namespace {
 

@@ -11,9 +11,6 @@
 
 namespace chaintrue::grid {
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 /// An anchor with a larger sigma was not determined: an arm's length.

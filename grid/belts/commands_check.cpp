@@ -13,12 +13,9 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::Belt;
-using model::kBelts;
-
 struct ExpectedPlace {
-  model::PerBelt<double> read_mm;
-  model::PerBelt<double> expected_mm;
+  PerBelt<double> read_mm;
+  PerBelt<double> expected_mm;
 };
 
 std::vector<ExpectedPlace> expected_places(const MeasuredBelts& belts) {
@@ -35,7 +32,7 @@ std::vector<ExpectedPlace> expected_places(const MeasuredBelts& belts) {
 double typical_mm(const std::vector<ExpectedPlace>& places, const std::vector<BeltPair>& swap) {
   std::vector<double> off;
   for (const ExpectedPlace& place : places) {
-    model::PerBelt<double> read_mm = place.read_mm;
+    PerBelt<double> read_mm = place.read_mm;
     for (const BeltPair& pair : swap) std::swap(read_mm[pair.first], read_mm[pair.second]);
     for (const Belt belt : kBelts) off.push_back(std::abs(read_mm[belt] - place.expected_mm[belt]));
   }

@@ -20,9 +20,9 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
   ReadingLines lines;
   lines.residual_mm.setZero(rows);
   lines.by_place.setZero(rows, 2);
-  const model::BeltMachine machine = with_anchors(belts.machine, state.anchors);
+  const BeltMachine machine = with_anchors(belts.machine, state.anchors);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    for (const model::Belt belt : model::kBelts) {
+    for (const Belt belt : kBelts) {
       const auto reading = model::reading_at(machine, belt, state.places[k]);
       if (!reading) continue;
       const Index row = row_of(k, belt);
@@ -58,9 +58,9 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
       const std::size_t point = readings.readings()[own.places[p]].index;
       const auto slot = as_index(p);
       slots_[point] = Slot{blocks_.size(), slot};
-      equations_.residual_mm.segment<4>(row_of(point, model::Belt::tl)) =
+      equations_.residual_mm.segment<4>(row_of(point, Belt::tl)) =
           block.line.residual_mm.segment<4>(4 * slot);
-      equations_.by_place.middleRows<4>(row_of(point, model::Belt::tl)) =
+      equations_.by_place.middleRows<4>(row_of(point, Belt::tl)) =
           block.line.by_position.block<4, 2>(4 * slot, 2 * slot);
     }
     blocks_.push_back(std::move(block));
@@ -83,13 +83,13 @@ Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
   return block.inverse.block<2, 2>(at, at) + linear::carried(gain, covariance_);
 }
 
-VectorXd FitDiagnostics::influence(std::size_t point, model::Belt belt) const {
+VectorXd FitDiagnostics::influence(std::size_t point, Belt belt) const {
   const double weight = 1.0 / (frame_.residual_sigma_mm * frame_.residual_sigma_mm);
   const Slot& slot = slots_[point].value();
   return weight * (covariance_ * blocks_[slot.block].left.row(slot.row(belt)).transpose());
 }
 
-BeltResidual FitDiagnostics::residual(std::size_t point, model::Belt belt) const {
+BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   BeltResidual result;
   const double r = equations_.residual_mm[row_of(point, belt)];
   result.residual_mm = r;
@@ -151,9 +151,6 @@ AnchorVector FitDiagnostics::anchors_without(std::size_t point) const {
   return frame_.state.anchors + change.head<kAnchorUnknowns>();
 }
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
@@ -182,8 +179,8 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
 
 void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
   double square = 0.0;
-  model::PerBelt<double> squares;
-  model::PerBelt<int> counts;
+  PerBelt<double> squares;
+  PerBelt<int> counts;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     FittedPlace place{view.frame().state.places[k], view.place_covariance_mm2(k), {}};
     std::vector<BadBeltReading> bad;
@@ -230,9 +227,9 @@ void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view, const Ma
 /// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt
 /// that it takes does not count.
 void predict_point(const MeasuredBelts& belts, std::size_t point, const AnchorVector& anchors,
-                   const model::PerBelt<bool>& counting, std::vector<double>& residual_mm) {
+                   const PerBelt<bool>& counting, std::vector<double>& residual_mm) {
   if (!counting.tl || !counting.tr) return;
-  const model::BeltMachine machine = with_anchors(belts.machine, anchors);
+  const BeltMachine machine = with_anchors(belts.machine, anchors);
   const auto& lengths = belts.points[point].lengths_mm;
   const auto place = model::place_of_upper(machine, lengths.tl, lengths.tr);
   if (!place) return;

@@ -61,7 +61,7 @@ class FitDiagnostics {
   /// cov(a)^-1.
   const MatrixXd& precision() const { return precision_; }
   bool has_scale() const { return covariance_.cols() > kAnchorUnknowns; }
-  bool counts(std::size_t point, model::Belt belt) const {
+  bool counts(std::size_t point, Belt belt) const {
     return is_placed(point) && frame_.counting[point][belt];
   }
 
@@ -75,9 +75,9 @@ class FitDiagnostics {
   Matrix2d place_covariance_mm2(std::size_t point) const;
 
   /// w cov(a) x': the response of a to a reading.
-  VectorXd influence(std::size_t point, model::Belt belt) const;
+  VectorXd influence(std::size_t point, Belt belt) const;
 
-  BeltResidual residual(std::size_t point, model::Belt belt) const;
+  BeltResidual residual(std::size_t point, Belt belt) const;
 
   /// A distance as predicted by the fit, and its sigma.
   struct Expected {
@@ -111,11 +111,11 @@ class FitDiagnostics {
   struct Slot {
     std::size_t block = 0;
     Index place = 0;
-    Index row(model::Belt belt) const { return 4 * place + static_cast<Index>(belt); }
+    Index row(Belt belt) const { return 4 * place + static_cast<Index>(belt); }
   };
 
   AnchorFit frame_;
-  std::shared_ptr<const model::Mechanism> mechanism_;
+  std::shared_ptr<const Mechanism> mechanism_;
   std::vector<Block> blocks_;
   std::vector<std::optional<Slot>> slots_;
   FitResiduals equations_;

@@ -41,7 +41,7 @@ std::vector<BeltEnd> ends_of(const MeasuredBelts& belts, const BeltsFit& fit) {
       ends.emplace_back(index);
       continue;
     }
-    const model::FramePoint centre = model::centre_of(belts.machine);
+    const FramePoint centre = model::centre_of(belts.machine);
     const auto whole = [](double mm) { return kWholeMm * std::round(mm / kWholeMm) + 0.0; };
     ends.emplace_back(CutHole{{whole(fit.places[index].at.x_mm - centre.x_mm),
                                whole(fit.places[index].at.y_mm - centre.y_mm)}});
@@ -54,8 +54,8 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
   frame.state.anchors = belts::anchors_of(fit.machine);
   for (const FittedPlace& place : fit.places) {
     frame.state.places.push_back(place.at);
-    model::PerBelt<bool>& counts = frame.counting.emplace_back();
-    for (const model::Belt belt : model::kBelts) counts[belt] = place.belts[belt].counts;
+    PerBelt<bool>& counts = frame.counting.emplace_back();
+    for (const Belt belt : kBelts) counts[belt] = place.belts[belt].counts;
   }
   if (fit.scale) frame.state.log_scale = std::log(fit.scale->factor);
   // Lengths without noise are given a hundredth of a usual sigma.
@@ -89,7 +89,7 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
       for (std::size_t j = i + 1; j < ends.size(); ++j) pairs.emplace_back(ends[i], ends[j]);
     }
   };
-  add_pairs({model::kBelts.begin(), model::kBelts.end()});
+  add_pairs({kBelts.begin(), kBelts.end()});
   add_pairs(ends_of(belts, fit));
   const belts::FitDiagnostics view(belts, frame_of(fit));
   std::optional<DistanceForScale> best;

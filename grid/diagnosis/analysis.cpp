@@ -84,8 +84,8 @@ double move_mm(const ObservationSet& session, const VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
   for (Index k = 0; k < session.setting_columns(); ++k) {
-    const bool turn = session.is_of_chains() &&
-                      session.settings[as_size(k)] == model::Setting::sheet_rotation_rad;
+    const bool turn =
+        session.is_of_chains() && session.settings[as_size(k)] == Setting::sheet_rotation_rad;
     most = std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(k)));
   }
   return most;

@@ -278,8 +278,6 @@ namespace {
 using belts::AnchorFit;
 using belts::FitDiagnostics;
 using belts::kAnchorUnknowns;
-using model::Belt;
-using model::kBelts;
 
 /// Places, and the spread about them.
 void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, AnchorFit& frame) {

@@ -17,7 +17,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   // An extension must improve left-out points.
   const bool worse = diagnosis.improvement && diagnosis.improvement->extended.rms_mm >=
                                                   diagnosis.improvement->calibrated.rms_mm;
-  std::vector<model::AppliedEffect> into_machine;
+  std::vector<AppliedEffect> into_machine;
   RegressorSet taken;
   for (const Cause& cause : used) {
     const int column = best_regressor(a, cause.cause);

@@ -154,7 +154,7 @@ belts::Counting decided_counting(const Analysis& a) {
   const Flags& rejected = marginalised_system(a).outliers;
   belts::Counting counting(a.system.places.size());
   for (std::size_t u = 0; u < counting.size(); ++u) {
-    for (const model::Belt belt : model::kBelts) {
+    for (const Belt belt : kBelts) {
       counting[a.system.places[u].place][belt] = !rejected[4 * u + static_cast<std::size_t>(belt)];
     }
   }

@@ -12,16 +12,12 @@
 
 namespace chaintrue::grid::diagnosis {
 
-using model::Belt;
-using model::FramePoint;
-using model::kBelts;
-
 namespace {
 
 /// rms of the distances from where the machine believes the tool, by the upper two belts, to where it is,
 /// after the best rigid motion of the frame, which only places the sheet. Without places where these
 /// belts do not meet.
-double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& real,
+double shape_error_mm(const BeltMachine& by, const BeltMachine& real,
                       const std::vector<model::effects::ActingEffect>& effects,
                       const std::vector<FramePoint>& places) {
   // During cutting the upper two hold; effects that set in at a visit are present.
@@ -49,7 +45,7 @@ double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& re
 }
 
 /// Root mean square over shifts along each axis of the anchors' uncertainty, in both directions.
-double uncertain_mm(const model::BeltMachine& machine, const MatrixXd& covariance,
+double uncertain_mm(const BeltMachine& machine, const MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
   const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
@@ -64,12 +60,12 @@ double uncertain_mm(const model::BeltMachine& machine, const MatrixXd& covarianc
 }
 
 ToolError tool_error(const BeltsAnalysis& a, const FitGivenCauses& given,
-                     const model::BeltMachine& machine) {
+                     const BeltMachine& machine) {
   const auto effects = resolved(given.causes);
   const std::vector<FramePoint>& places = given.frame.state.places;
   ToolError error;
   error.after_mm = uncertain_mm(machine, a.averaged.covariance_mm2, places);
-  const auto of = [&](const model::BeltMachine& by) {
+  const auto of = [&](const BeltMachine& by) {
     return std::hypot(shape_error_mm(by, machine, effects, places), error.after_mm);
   };
   if (a.belts.machine.anchors_known) error.stated_mm = of(a.belts.machine);

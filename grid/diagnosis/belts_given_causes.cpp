@@ -8,9 +8,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-using model::Belt;
-using model::kBelts;
-
 std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>& causes) {
   std::vector<model::effects::ActingEffect> effects;
   for (const SizedCause& own : causes) {
@@ -100,14 +97,14 @@ VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& cau
   VectorXd added = VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
   const auto effects = resolved(causes);
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
+  const BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
   const std::optional<BeltPull> reference = reference_pull(belts);
   for (const Belt belt : kBelts) {
     const bool acts =
         any_of(effects, [belt](const auto& own) { return model::belts::acts_on(own.side, belt); });
     if (!acts) continue;
     for (std::size_t k = 0; k < belts.points.size(); ++k) {
-      const model::FramePoint at = state.places[k];
+      const FramePoint at = state.places[k];
       const BeltPoint& point = belts.points[k];
       const model::belts::BeltVisit visit{belt, pulled_belts(point), point.order.value_or(0),
                                           pull_over(reference, point)};
@@ -133,10 +130,10 @@ MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<Size
 ObservationSet observations_of(const MeasuredBelts& belts, const belts::FrameState& state,
                                double sigma_mm, const belts::Counting& counting) {
   const auto mechanism = belts::mechanism_at(belts, state);
-  std::vector<model::FramePoint> about = state.places;
-  for (model::FramePoint& at : about) {
+  std::vector<FramePoint> about = state.places;
+  for (FramePoint& at : about) {
     if (mechanism->predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
-    const model::ToolPosition middle = mechanism->extent().centre();
+    const ToolPosition middle = mechanism->extent().centre();
     at = {middle.x_mm, middle.y_mm};
   }
   const belts::Counting all(belts.points.size(), belts::kAllBelts);

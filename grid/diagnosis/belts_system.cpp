@@ -13,9 +13,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 /// Degrees of freedom of the prior noise of a belt's reading, which is hardly known.
@@ -191,8 +188,8 @@ namespace {
 SystemPlace place_of(const MeasuredBelts& belts, const belts::FrameState& state,
                      std::size_t index) {
   const BeltPoint& point = belts.points[index];
-  const model::FramePoint where = state.places[index];
-  const model::BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
+  const FramePoint where = state.places[index];
+  const BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
   SystemPlace place;
   place.place = index;
   place.mark = {where.x_mm, where.y_mm};

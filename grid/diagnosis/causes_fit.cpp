@@ -107,7 +107,7 @@ bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares) {
 
 struct ActingCause {
   Cause cause;
-  std::vector<model::AppliedEffect> effects;
+  std::vector<AppliedEffect> effects;
 };
 
 bool has_order(const MeasuredFile& file) {
@@ -131,11 +131,11 @@ const ParameterEstimate* unsure_place(const Cause& cause) {
 }
 
 /// A share of the cause, and the distance of its place from the likeliest.
-model::AppliedEffect applied_at(const Cause& cause, const ParameterEstimate& place, double off,
-                                double share) {
+AppliedEffect applied_at(const Cause& cause, const ParameterEstimate& place, double off,
+                         double share) {
   const EffectParameter& bounds = *place_parameter(*cause.cause.effect);
   const EffectParameter& size = cause.cause.effect->parameters.front();
-  model::AppliedEffect effect = applied(cause);
+  AppliedEffect effect = applied(cause);
   effect.parameters[place.parameter] = std::clamp(place.value + off, bounds.lower, bounds.upper);
   double& own = effect.parameters[std::string(size.name)];
   own = size.null + share * (own - size.null);
@@ -205,7 +205,7 @@ std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
 /// ratio of the plain map's error to this one's, at least 1.
 double factor_beyond(const CompensationMap& plain, const CompensationMap& own) {
   double factor = 1.0;
-  for (const model::MarkPoint& mark : raster(own.contents().domain, 25, 13, RasterOf::nodes)) {
+  for (const MarkPoint& mark : raster(own.contents().domain, 25, 13, RasterOf::nodes)) {
     if (own.status(mark) != MapStatus::extrapolated) continue;
     const auto before = plain.query(mark);
     const auto after = own.query(mark);
@@ -325,19 +325,19 @@ bool shows_scale(const ExtraReading& reading) {
   return reading.what == ReadingOf::link_pitch || reading.what == ReadingOf::tape_error;
 }
 
-model::AppliedEffect applied(const Cause& cause) {
-  model::AppliedEffect effect{
+AppliedEffect applied(const Cause& cause) {
+  AppliedEffect effect{
       std::string(cause.cause.effect->id), std::string(model::effects::name(cause.cause.side)), {}};
   for (const ParameterEstimate& p : cause.parameters) effect.parameters[p.parameter] = p.value;
   return effect;
 }
 
-std::vector<model::AppliedEffect> applied_over_places(const Cause& cause) {
+std::vector<AppliedEffect> applied_over_places(const Cause& cause) {
   const ParameterEstimate* place = unsure_place(cause);
   if (place == nullptr) return {applied(cause)};
   // A ninth of a gap between marks: less than a surface of these marks can show.
   constexpr int kPlaces = 9;
-  std::vector<model::AppliedEffect> effects;
+  std::vector<AppliedEffect> effects;
   for (int k = 0; k < kPlaces; ++k) {
     const double off = std::sqrt(3.0) * place->sigma * ((2.0 * k + 1.0) / kPlaces - 1.0);
     effects.push_back(applied_at(cause, *place, off, 1.0 / kPlaces));

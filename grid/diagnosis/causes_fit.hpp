@@ -102,9 +102,9 @@ CausesFit fit_on_causes(const Measured& measured, const Naming& naming, JointFit
 std::vector<std::string> in_words(const CausesFit& fit);
 
 /// A cause as in a machine file.
-model::AppliedEffect applied(const Cause& cause);
+AppliedEffect applied(const Cause& cause);
 /// The same with its size divided among its possible places; a single one if its place is certain,
 /// or if no step or bend depends on it.
-std::vector<model::AppliedEffect> applied_over_places(const Cause& cause);
+std::vector<AppliedEffect> applied_over_places(const Cause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,9 +9,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::Belt;
-using model::Side;
-
 struct Described {
   std::string_view name;
   std::string_view unit = "mm";

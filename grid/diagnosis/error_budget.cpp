@@ -38,7 +38,7 @@ BudgetLine::ChangesWith changes_with(const Effect& effect) {
 
 /// A corner of the marked area, and the points a part's length from it towards the middle, in
 /// either direction.
-std::array<model::MarkPoint, 3> corner(const interp::Rectangle& area, bool right, bool top) {
+std::array<MarkPoint, 3> corner(const interp::Rectangle& area, bool right, bool top) {
   const double x = right ? area.x_max : area.x_min;
   const double y = top ? area.y_max : area.y_min;
   return {{{x, y}, {x + (right ? -kPartMm : kPartMm), y}, {x, y + (top ? -kPartMm : kPartMm)}}};

@@ -201,11 +201,10 @@ void measure_before_calibration(const Analysis& a, const Indices& units, const I
   };
   const VectorXd as_stated = uncalibrated(session, *stated);
   improvement.uncalibrated = summary(as_stated);
-  constexpr auto kOfMachine = std::ssize(model::kMachineSettings);
+  constexpr auto kOfMachine = std::ssize(kMachineSettings);
   const auto sheet = std::ssize(session.settings) - kOfMachine;
   const auto moves = [&](Index k) {
-    return session.settings[as_size(k)] != model::Setting::sheet_rotation_rad &&
-           session.knows(as_size(k));
+    return session.settings[as_size(k)] != Setting::sheet_rotation_rad && session.knows(as_size(k));
   };
   if (none_of(numbers_below<Index>(sheet), [&](Index k) { return moves(kOfMachine + k); })) return;
   improvement.placed =

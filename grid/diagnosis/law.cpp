@@ -30,9 +30,9 @@ const DescribedShape& described_shape(LawShape shape) {
 
 }  // namespace
 
-std::optional<model::Belt> belt_of(Enters enters) {
+std::optional<Belt> belt_of(Enters enters) {
   if (enters < Enters::tl) return std::nullopt;
-  return static_cast<model::Belt>(static_cast<int>(enters) - static_cast<int>(Enters::tl));
+  return static_cast<Belt>(static_cast<int>(enters) - static_cast<int>(Enters::tl));
 }
 
 std::string_view name(LawShape shape) { return described_shape(shape).name; }

@@ -30,7 +30,7 @@ bool may_repeat(const LawTerm& term) {
   if (unit_of(term.of) != "mm") return false;
   if (const auto belt = belt_of(term.of)) return belt_of(term.enters) == belt;
   const auto chain = chain_of(term.of);
-  return chain && term.enters == (*chain == model::Side::left ? Enters::left : Enters::right);
+  return chain && term.enters == (*chain == Side::left ? Enters::left : Enters::right);
 }
 
 /// The shortest period: shorter ones are implausible, or no marks show them.
@@ -198,7 +198,7 @@ double basis(const LawCurve& curve, double at, Index column, double v) {
 std::vector<LawEntrance> entrances_of_chains(Coordinate of) {
   using enum Enters;
   if (const auto chain = chain_of(of)) {
-    const bool is_left = *chain == model::Side::left;
+    const bool is_left = *chain == Side::left;
     return {{left, is_left ? 0.55 : 0.15}, {right, is_left ? 0.15 : 0.55}, {x, 0.15}, {y, 0.15}};
   }
   switch (of) {

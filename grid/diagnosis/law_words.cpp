@@ -159,7 +159,7 @@ std::string given_law_words(const Diagnosis& d) {
   return text;
 }
 
-std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine) {
+std::vector<std::string> hints_of(const Law& law, const BeltMachine& machine) {
   const double turn = machine.belt_turn_mm;
   // Tolerance of a belt's pitch: one per cent.
   if (!is_wave_of_length(law) || !belt_of(law.of) || !is_near(law, turn, 0.01 * turn)) return {};
@@ -169,7 +169,7 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
       turn)};
 }
 
-std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
+std::vector<std::string> hints_of(const Law& law, const Machine& machine) {
   std::vector<std::string> hints;
   const double pitch = machine.sprocket.pitch_mm;
   const double turn = machine.sprocket.teeth * pitch;
@@ -193,10 +193,10 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
   if (law.of == Coordinate::x && (law.shape == LawShape::step || law.shape == LawShape::kink)) {
     if (is_near(law, 0.0, kNearMm))
       hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       if (is_near(law, machine.motors[side].x_mm, kNearMm))
-        hints.push_back(fmt::format("Its place is near the {} motor.",
-                                    side == model::Side::left ? "left" : "right"));
+        hints.push_back(
+            fmt::format("Its place is near the {} motor.", side == Side::left ? "left" : "right"));
     }
   }
   if (unit_of(law.of) == "n")
@@ -212,7 +212,7 @@ using model::effects::DeclaredParameter;
 using model::effects::EffectSide;
 using model::effects::ParameterRole;
 
-std::string variable_of(const Law& law, const model::Bed& bed) {
+std::string variable_of(const Law& law, const Bed& bed) {
   constexpr std::string_view kVariables[] = {"x",
                                              "y",
                                              "({cos:.6f} * x + {sin:.6f} * y)",
@@ -233,7 +233,7 @@ std::string variable_of(const Law& law, const model::Bed& bed) {
 /// The chain whose value is the law's variable.
 bool is_of_other_chain(const Law& law) {
   const auto chain = chain_of(law.of);
-  return chain && law.enters != (*chain == model::Side::left ? Enters::left : Enters::right);
+  return chain && law.enters != (*chain == Side::left ? Enters::left : Enters::right);
 }
 
 /// A number with the variable's unit.
@@ -281,7 +281,7 @@ DeclaredParameter place_of(const Law& law) {
 }
 
 /// The parameters size_mm and, if there is one, the place.
-std::string formula_of(const Law& law, const model::Bed& bed) {
+std::string formula_of(const Law& law, const Bed& bed) {
   const std::string v = variable_of(law, bed);
   const double span = law.to - law.from;
   const std::string over_span = with_unit(law, span);
@@ -352,7 +352,7 @@ std::string refusal_of(const Law& law) {
 
 }  // namespace
 
-tl::expected<Declaration, std::string> declaration_of(const Law& law, const model::Bed& bed) {
+tl::expected<Declaration, std::string> declaration_of(const Law& law, const Bed& bed) {
   if (const std::string why = refusal_of(law); !why.empty()) {
     return tl::unexpected(
         fmt::format("The law found ({}) cannot be written to a file: {}.", in_words(law), why));
@@ -378,7 +378,7 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const mode
 }
 
 tl::expected<Declaration, std::string> declaration_of(const std::vector<Law>& laws,
-                                                      const model::Bed& bed) {
+                                                      const Bed& bed) {
   if (laws.empty()) {
     return tl::unexpected(
         std::string("No law is written: for these readings no law is more likely than none."));

@@ -34,8 +34,8 @@ std::string average_in_words(const Law& law, Observations of);
 std::string given_law_words(const Diagnosis& d);
 
 /// Hints, as sentences: what on this machine has about this period or place.
-std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);
-std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine);
+std::vector<std::string> hints_of(const Law& law, const Machine& machine);
+std::vector<std::string> hints_of(const Law& law, const BeltMachine& machine);
 
 // A law as a cause of the user's own (model/effects/declared_effect.hpp), so that later
 // diagnoses can name it and a user can edit it.
@@ -46,10 +46,10 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
 // tool outwards over every border, or one that depends on the other chain: both are refused.
 
 /// Or a sentence with the reason.
-[[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
-    const Law& law, const model::Bed& bed);
+[[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(const Law& law,
+                                                                                    const Bed& bed);
 /// For the likeliest law of a list, which must be at least kLawClaimed.
 [[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
-    const std::vector<Law>& laws, const model::Bed& bed);
+    const std::vector<Law>& laws, const Bed& bed);
 
 }  // namespace chaintrue::grid::diagnosis

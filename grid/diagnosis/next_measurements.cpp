@@ -32,19 +32,19 @@ CandidateReadings candidate_points(const Analysis& a, std::size_t part) {
   for (const observation::Place& p : own.places()) next_visit = std::max(next_visit, p.order + 1);
   std::vector<observation::Place> places;
   std::vector<Candidate> all;
-  const auto add = [&](model::MarkPoint mark, MeasurementKind kind, std::string what) {
+  const auto add = [&](MarkPoint mark, MeasurementKind kind, std::string what) {
     const auto row = 2 * std::ssize(places);
     places.push_back({0, "", mark, {}, next_visit});
     all.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
   };
   const observation::View view = a.state.view(a.session.parts[part]);
   const interp::Rectangle area = marked_area(a.session);
-  const model::Bed& bed = a.session.stated.bed;
+  const Bed& bed = a.session.stated.bed;
   const double x = std::min(1.1 * std::max(-area.x_min, area.x_max), 0.49 * bed.width_mm);
   const double y = std::min(1.1 * std::max(-area.y_min, area.y_max), 0.49 * bed.height_mm);
-  for (const model::MarkPoint& place : raster({-x, x, -y, y}, 20, 12, RasterOf::nodes)) {
+  for (const MarkPoint& place : raster({-x, x, -y, y}, 20, 12, RasterOf::nodes)) {
     // Whole millimetres: the list is for a person with a tape.
-    const model::MarkPoint mark{std::round(place.x_mm), std::round(place.y_mm)};
+    const MarkPoint mark{std::round(place.x_mm), std::round(place.y_mm)};
     if (view.chains().at(view.sheet.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
   }
   if (own.ordered()) {
@@ -142,7 +142,7 @@ class HoleCandidates {
   }
 
   /// The existing holes, the farthest from a place first.
-  Indices by_distance(const model::BedPoint& place) const {
+  Indices by_distance(const BedPoint& place) const {
     Indices order = numbers_below(measured_.holes.size());
     stable_sort(order, descending([&](std::size_t i) {
                   return distance_mm(measured_.holes[i].commanded, place);
@@ -158,7 +158,7 @@ class HoleCandidates {
     return one && one->placed(a_.state.view(a_.session.parts[part_]));
   }
 
-  void add_hole(const model::BedPoint& place) {
+  void add_hole(const BedPoint& place) {
     const Indices others = by_distance(place);
     if (distance_mm(measured_.holes[others.back()].commanded, place) < kApartMm) return;
     const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};
@@ -185,7 +185,7 @@ class HoleCandidates {
       x = std::max(x, std::abs(hole.commanded.x_mm));
       y = std::max(y, std::abs(hole.commanded.y_mm));
     }
-    for (const model::MarkPoint& place : raster({-x, x, -y, y}, 7, 4, RasterOf::nodes))
+    for (const MarkPoint& place : raster({-x, x, -y, y}, 7, 4, RasterOf::nodes))
       add_hole({std::round(place.x_mm), std::round(place.y_mm)});
   }
 

@@ -16,8 +16,6 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 using Reason = DiagnosisFailure::Reason;
-using model::Machine;
-using model::Setting;
 
 /// The readings that the machine predicts; the sled's mass is taken as it was read.
 std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings, Machine& machine) {
@@ -79,7 +77,7 @@ std::optional<std::string> contradiction(const Machine& machine,
 /// From the scatter of the residuals within each group of repeats.
 std::optional<StatedNoise> noise_of_repeats(const Machine& stated, const MeasuredGrid& grid,
                                             const std::vector<LengthPoint>& points) {
-  const model::ReadingModel model(stated);
+  const ReadingModel model(stated);
   const StatedNoise usual;
   RepeatScatter scatter({usual.length_mm, usual.position_mm}, rounding_noise(grid));
   for (const auto& group : repeat_groups(points)) {

@@ -50,7 +50,7 @@ Indices by_place(const std::vector<MeasuredPoint>& points) {
   auto result = numbers_below(points.size());
   const auto key = [&](std::size_t i) {
     const MeasuredPoint& point = points[i];
-    const model::ChainLengths lengths = point.lengths.value_or(model::ChainLengths{});
+    const ChainLengths lengths = point.lengths.value_or(ChainLengths{});
     return std::tuple(point.mark.y_mm, point.mark.x_mm, lengths.left_mm, lengths.right_mm);
   };
   stable_sort(result, ascending(key));

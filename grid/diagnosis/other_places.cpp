@@ -18,7 +18,7 @@ std::size_t chain_part(const ObservationSet& session) {
 
 interp::Rectangle marked_area(const ObservationSet& session) {
   const auto& places = session.parts[chain_part(session)].observation->places();
-  const model::MarkPoint first = places.front().mark;
+  const MarkPoint first = places.front().mark;
   interp::Rectangle area{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
   for (const observation::Place& place : places) take_in(area, place.mark);
   return area;
@@ -34,11 +34,11 @@ FollowUp readings_at(const ObservationSet& session, std::size_t part,
           part};
 }
 
-ObservationSet session_at(const Analysis& a, const std::vector<model::MarkPoint>& marks) {
+ObservationSet session_at(const Analysis& a, const std::vector<MarkPoint>& marks) {
   const std::size_t part = chain_part(a.session);
   const observation::View view = a.state.view(a.session.parts[part]);
   std::vector<observation::Place> places;
-  for (const model::MarkPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     if (view.chains().at(view.sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
   }
   return with_observations(a.session, {readings_at(a.session, part, std::move(places))});

@@ -50,7 +50,7 @@ namespace {
 constexpr int kPlaces = 24;  // of a knee or a phase: neighbours have a collinearity of 0.99
 
 /// The value that an effect's place is compared with, at one place of the tool.
-double compared(const SystemPlace& own, PlaceVariable variable, model::Side side) {
+double compared(const SystemPlace& own, PlaceVariable variable, Side side) {
   const model::Pose& pose = own.state.reading.pose;
   const model::ChainState& chain = pose.chains[side];
   switch (variable) {
@@ -75,8 +75,7 @@ double compared(const SystemPlace& own, PlaceVariable variable, model::Side side
   }
 }
 
-std::vector<double> compared(const RegressorSystem& system, PlaceVariable variable,
-                             model::Side side) {
+std::vector<double> compared(const RegressorSystem& system, PlaceVariable variable, Side side) {
   std::vector<double> there;
   for (const SystemPlace& own : system.places) {
     if (variable != PlaceVariable::visit || own.ordered)
@@ -117,9 +116,9 @@ PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& pla
 std::vector<double> compared_at_places(const RegressorSystem& system, PlaceVariable variable,
                                        EffectSide side) {
   std::vector<double> there;
-  if (side != EffectSide::right) there = compared(system, variable, model::Side::left);
+  if (side != EffectSide::right) there = compared(system, variable, Side::left);
   if (side == EffectSide::left) return there;
-  const std::vector<double> right = compared(system, variable, model::Side::right);
+  const std::vector<double> right = compared(system, variable, Side::right);
   append_all(there, right);
   return there;
 }
@@ -148,7 +147,7 @@ std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId caus
       result.push_back(place.lower + (place.upper - place.lower) * (k + 0.5) / kPlaces);
     return result;
   }
-  const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
+  const auto side = cause.side == EffectSide::left ? Side::left : Side::right;
   std::vector<double> there = compared(system, variable, side);
   if (there.size() < 2) return result;
   result = evenly_by_rank(std::move(there));

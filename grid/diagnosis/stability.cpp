@@ -28,7 +28,7 @@ bool is_at_mark(const ObservationSet& session, const NumberedUnit& unit) {
 
 /// Runs of points along a coordinate; empty if the marks are not in lines.
 std::vector<LeftOut> lines_along(const ObservationSet& session, Removal::What what,
-                                 double model::MarkPoint::*coordinate) {
+                                 double MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) {
     const ObservationPart& part = session.parts[session.units[u].part];
     return session.places[part.first_place + u - part.first_unit].mark.*coordinate;
@@ -93,8 +93,8 @@ std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
     groups.push_back(
         {is_at_mark(session, unit) ? What::point : What::distance, unit.index, 0.0, {u}});
   }
-  append_all(groups, lines_along(session, What::column, &model::MarkPoint::x_mm));
-  append_all(groups, lines_along(session, What::row, &model::MarkPoint::y_mm));
+  append_all(groups, lines_along(session, What::column, &MarkPoint::x_mm));
+  append_all(groups, lines_along(session, What::row, &MarkPoint::y_mm));
   std::erase_if(groups, [&](const LeftOut& group) {
     return session.units.size() - group.units.size() < session.fewest_units;
   });

@@ -15,7 +15,7 @@ namespace {
 /// Residuals with the placement of the sheet, and nothing else, fitted to the points that count:
 /// whitened rows of points.
 VectorXd placed(RegressorSystem system, const VectorXd& left) {
-  const Index sheet = system.setting.size() - std::ssize(model::kMachineSettings);
+  const Index sheet = system.setting.size() - std::ssize(kMachineSettings);
   if (sheet == 0) return left;
   system.by_setting = system.by_setting.rightCols(sheet).eval();
   system.setting = system.expected_change = VectorXd::Zero(sheet);
@@ -29,7 +29,7 @@ VectorXd placed(RegressorSystem system, const VectorXd& left) {
 /// Residuals of the second session with the first one's model, before placing its sheet.
 VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet& to,
                  const State& state, const RegressorSystem& system) {
-  const auto machine = std::ssize(model::kMachineSettings);
+  const auto machine = std::ssize(kMachineSettings);
   VectorXd left = system.e - linear::product(system.by_setting.leftCols(machine),
                                              model.setting_change.head(machine));
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
@@ -84,7 +84,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   if (!analysis) return tl::unexpected(analysis.error());
   const Analysis& a = *analysis;
   // The other sheet was placed separately.
-  State state{a.state.machine, std::vector<model::SheetPlacement>(second->sheets)};
+  State state{a.state.machine, std::vector<SheetPlacement>(second->sheets)};
   if (first->sheets == second->sheets) state.sheets = a.state.sheets;
   const auto system = linearise(*second, state);
   const auto stated = linearise(*second, stated_state(*second));

@@ -72,7 +72,7 @@ inline constexpr double kSurfaceEvidence = 3.0;
 inline constexpr std::size_t kFewestSingleRows = 5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
-inline constexpr Index kMachineUnknowns = model::kMachineSettings.size() + 2;
+inline constexpr Index kMachineUnknowns = kMachineSettings.size() + 2;
 
 /// Prior of a mechanism's parameters, as deviations from the stated values; for two chains also of
 /// both scales, which come last.
@@ -81,7 +81,7 @@ struct ParameterKnowledge {
   MatrixXd covariance;
 };
 /// The machine's stated uncertainty, and kScaleSigma of each scale.
-ParameterKnowledge stated_knowledge(const model::Machine& machine);
+ParameterKnowledge stated_knowledge(const Machine& machine);
 
 enum class SurfaceUse {
   none,
@@ -103,10 +103,10 @@ struct ReadingLimits {
 };
 
 struct EstimationInput {
-  model::Machine machine;  ///< as stated
+  Machine machine;  ///< as stated
   /// Replaces the two chains of `machine`: its values are the starting point. A mechanism of other
   /// than two lengths has no scales and no surface.
-  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
+  std::shared_ptr<const Mechanism> mechanism = nullptr;
   /// The marks' frame of the first is that of the surface and of the map.
   observation::Observations observations;
   interp::NoiseScale noise;
@@ -154,10 +154,10 @@ struct ReadingEstimate {
 
 struct PlaceEstimate {
   /// Position by the stated machine, with a free sheet placed as defined above.
-  model::MarkPoint as_stated;
-  model::MarkPoint mark;
-  Matrix2d by_mark;             ///< d(L, R)/d(mark), corrected
-  model::ChainLengths lengths;  ///< of the machine alone
+  MarkPoint as_stated;
+  MarkPoint mark;
+  Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
+  ChainLengths lengths;  ///< of the machine alone
 };
 
 struct SessionZero {
@@ -170,7 +170,7 @@ std::string words_of(const std::array<SessionZero, 2>& zeros);
 
 /// Results of one observation.
 struct ObservationEstimate {
-  model::SheetPlacement sheet;
+  SheetPlacement sheet;
   VectorXd predicted;  ///< in the order of the observation's rows
   std::vector<PlaceEstimate> places;
   VectorXd nuisance;
@@ -181,8 +181,8 @@ struct ObservationEstimate {
 };
 
 struct Estimate {
-  model::Machine machine;                ///< calibrated
-  std::vector<model::Setting> settings;  ///< of the machine, and of the first sheet
+  Machine machine;                ///< calibrated
+  std::vector<Setting> settings;  ///< of the machine, and of the first sheet
   /// Deviations of the settings from what was stated, then the scales.
   VectorXd map_unknowns;
   FitColumns columns;
@@ -200,7 +200,7 @@ struct Estimate {
   bool converged = true;
   /// With the fitted values; for two chains that of `machine`. Its parameters are the first of
   /// map_unknowns and of covariance.
-  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
+  std::shared_ptr<const Mechanism> mechanism = nullptr;
 };
 
 enum class EstimationReason { place_unreachable, rank_deficient, not_converged };

@@ -279,7 +279,7 @@ class Estimator {
           std::isfinite(stated) ? stated : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
       step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
     }
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       if (!rule.scales_count || problem_->unknowns().scales == 0) break;
       step = std::max(
           step, std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
@@ -376,7 +376,7 @@ class Estimator {
   VectorXd weights_;
   VectorXd distances_;
   interp::PenalisedFit fit_;
-  std::vector<std::vector<model::MarkPoint>> as_stated_;
+  std::vector<std::vector<MarkPoint>> as_stated_;
   bool converged_ = false;
   bool is_linearised_ = false;  ///< the problem is about the state
   double surface_log_evidence_ = 0.0;

@@ -23,7 +23,7 @@ inline MatrixXd map_covariance(const JointProblem& problem, const interp::Penali
   const ObservedSubspace* observed = problem.observed();
   MatrixXd to_splines = MatrixXd::Zero(columns.total(), unknowns.total());
   to_splines.topLeftCorner(columns.settings, columns.settings).setIdentity();
-  for (const model::Side side : model::kSides) {
+  for (const Side side : kSides) {
     if (unknowns.scales == 0) break;
     to_splines(columns.scale(side), unknowns.scale(side)) = 1.0;
     if (observed == nullptr) continue;
@@ -35,7 +35,7 @@ inline MatrixXd map_covariance(const JointProblem& problem, const interp::Penali
   if (observed == nullptr) return result;
   const MatrixXd unobserved =
       fit.inverse_lambda * observed->null_space * observed->null_space.transpose();
-  for (const model::Side side : model::kSides) {
+  for (const Side side : kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
         unobserved;
   }
@@ -48,13 +48,13 @@ struct FinishedFit {
   const State& state;
   const VectorXd& weights;
   const VectorXd& distances;  ///< of units; those with fixed weights are found here
-  const std::vector<std::vector<model::MarkPoint>>& as_stated;
+  const std::vector<std::vector<MarkPoint>>& as_stated;
 
   [[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate() const {
     const EstimationInput& input = problem.input();
     Estimate estimate{.machine = input.machine, .surface = state.surface};
     estimate.mechanism = problem.mechanism_at(problem.coefficients(fit));
-    if (const auto* chains = dynamic_cast<const model::ReadingModel*>(estimate.mechanism.get())) {
+    if (const auto* chains = dynamic_cast<const ReadingModel*>(estimate.mechanism.get())) {
       estimate.machine = chains->machine();
       estimate.settings =
           observation::settings_in(observation::columns_of(*input.observations.front()));

@@ -28,8 +28,8 @@ namespace chaintrue::grid::estimation {
 
 /// The places of one observation.
 struct PlacesOnSheet {
-  std::vector<model::MarkPoint> commanded;
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> commanded;
+  std::vector<MarkPoint> marks;
   MatrixXd by_unknown;  ///< G
   VectorXd moved;       ///< g
   std::vector<Index> free_columns;
@@ -39,7 +39,7 @@ struct PlacesOnSheet {
   MatrixXd whole_motion() const {
     const auto count = std::ssize(commanded);
     Vector2d middle = Vector2d::Zero();
-    for (const model::MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
+    for (const MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
     MatrixXd motion = MatrixXd::Zero(3, 2 * count);
     double squares = 0.0;
     for (Index i = 0; i < count; ++i) {
@@ -71,8 +71,8 @@ struct FreeDirections {
 
   /// Adds (1) of one observation. \returns its marks with the free directions corrected and all else
   /// unchanged.
-  std::vector<model::MarkPoint> add(const PlacesOnSheet& places) {
-    std::vector<model::MarkPoint> marks = places.marks;
+  std::vector<MarkPoint> add(const PlacesOnSheet& places) {
+    std::vector<MarkPoint> marks = places.marks;
     if (places.free_columns.empty()) return marks;
     const MatrixXd motion = places.whole_motion()(places.free_rows, Eigen::all);
     const MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);

@@ -79,10 +79,10 @@ inline void add_surface_prior(const JointProblem& joint, const VectorXd& weights
   const Unknowns& unknowns = joint.unknowns();
   const ObservedSubspace& observed = *joint.observed();
   problem.prior_precision.diagonal()
-      .segment(unknowns.polynomial(model::Side::left), 2 * unknowns.polynomials)
+      .segment(unknowns.polynomial(Side::left), 2 * unknowns.polynomials)
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: the same causes act on both surfaces.
-  problem.ridge = {unknowns.first_penalised_of(model::Side::left), 2 * unknowns.penalised};
+  problem.ridge = {unknowns.first_penalised_of(Side::left), 2 * unknowns.penalised};
   // The lambda at which the splines' penalty weighs as much as the data.
   for (std::size_t u = 0; u < joint.units().size(); ++u) {
     for (const observation::PlaceColumns& place : joint.units()[u].places) {

@@ -83,7 +83,7 @@ class JointProblem {
     }
     const auto system = estimation::linearise(set_, from);
     if (!system) return tl::unexpected(unreachable(system.error()));
-    std::vector<model::MarkPoint> marks;
+    std::vector<MarkPoint> marks;
     for (const SystemPlace& place : system->places)
       marks.push_back(corrections[place.observation].to_surface(place.state.mark));
     observe(std::move(marks));
@@ -98,7 +98,7 @@ class JointProblem {
 
   /// For each observation, with the state's surface. The state must outlive them.
   std::vector<SurfaceCorrection> corrections_of(const State& state) const {
-    const model::SheetPlacement first = sheet_at(state.settings, 0);
+    const SheetPlacement first = sheet_at(state.settings, 0);
     std::vector<SurfaceCorrection> corrections{SurfaceCorrection(state.surface)};
     for (std::size_t k = 1; k < set_.parts.size(); ++k)
       corrections.emplace_back(state.surface, first, sheet_at(state.settings, k));
@@ -113,11 +113,11 @@ class JointProblem {
     return set_.parts.front().sheet ? ObservationSet::sheet_column(1) : set_.parameters();
   }
   /// The mechanism and a sheet for deviations from what was stated.
-  std::shared_ptr<const model::Mechanism> mechanism_at(const VectorXd& deviations) const {
+  std::shared_ptr<const Mechanism> mechanism_at(const VectorXd& deviations) const {
     return set_.mechanism->with_values(set_.mechanism->values() +
                                        deviations.head(set_.parameters()));
   }
-  model::SheetPlacement sheet_at(const VectorXd& deviations, std::size_t observation) const {
+  SheetPlacement sheet_at(const VectorXd& deviations, std::size_t observation) const {
     const auto& sheet = set_.parts[observation].sheet;
     if (!sheet) return {};
     const Vector3d at = deviations.segment<3>(ObservationSet::sheet_column(*sheet));
@@ -153,7 +153,7 @@ class JointProblem {
   /// The local design for many readings under a surface; null if the dense one is as fast.
   const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, with a free sheet placed as its frame is defined.
-  const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
+  const std::vector<MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
   }
 
@@ -178,7 +178,7 @@ class JointProblem {
     const VectorXd all = coefficients(fit);
     State state = stated();
     state.settings = all.head(set_.setting_columns());
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       if (unknowns_.scales == 0) break;
       state.surface.scale[side] = all[unknowns_.scale(side)];
       if (!has_surface_) continue;
@@ -220,7 +220,7 @@ class JointProblem {
   }
 
   /// The part of the surface that the places observe; computed once if they are fixed.
-  void observe(std::vector<model::MarkPoint> places) {
+  void observe(std::vector<MarkPoint> places) {
     surface_marks_ = std::move(places);
     if (!has_surface_ || (observed_ && !places_move_)) return;
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
@@ -230,8 +230,8 @@ class JointProblem {
 
   /// e f + s at the state.
   Vector2d correction_at(std::size_t place, const SystemPlace& at, const State& state) const {
-    const model::ChainLengths own = at.state.reading.lengths;
-    const model::ChainLengths corrected =
+    const ChainLengths own = at.state.reading.lengths;
+    const ChainLengths corrected =
         state.surface.apply(surface_marks_[place], own, Matrix2d::Zero()).lengths;
     return difference(corrected, own);
   }
@@ -262,8 +262,8 @@ class JointProblem {
   /// Adds a chain's length and its surface at a place to rows, `by_chain` being their derivatives by
   /// the chain.
   template <class ByChain, class Rows>
-  void add_chain(std::size_t place, const SystemPlace& at, model::Side side,
-                 const ByChain& by_chain, Rows rows) const {
+  void add_chain(std::size_t place, const SystemPlace& at, Side side, const ByChain& by_chain,
+                 Rows rows) const {
     rows.col(unknowns_.scale(side)) += by_chain * at.state.reading.lengths[side];
     if (!has_surface_) return;
     const auto row = as_index(place);
@@ -278,7 +278,7 @@ class JointProblem {
                          MatrixXd& design, VectorXd& response) const {
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
-      for (const model::Side side : model::kSides) {
+      for (const Side side : kSides) {
         const VectorXd by_chain = place.by_chain.col(row_of(side));
         add_chain(place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
       }
@@ -298,7 +298,7 @@ class JointProblem {
         observation::lengths_by_setting(
             from.view, at.state.reading, at.state.mark,
             observation::settings_in(observation::columns_of(*part.observation)));
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       const Eigen::Matrix<double, 1, 1> one(1.0);
       add_chain(place, at, side, one, rows.middleRows<1>(row_of(side)));
     }
@@ -351,8 +351,8 @@ class JointProblem {
   bool places_move_ = false;
   interp::BsplineBasis basis_;
   std::optional<ObservedSubspace> observed_;
-  std::vector<model::MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
-  std::vector<std::vector<model::MarkPoint>> laid_marks_;
+  std::vector<MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
+  std::vector<std::vector<MarkPoint>> laid_marks_;
   std::vector<SystemUnit> units_;
   MatrixXd design_;
   VectorXd response_;

@@ -31,12 +31,12 @@ class LocalDesign {
   /// `marks` are the places of all units, in the surface's frame.
   LocalDesign(const MatrixXd& design, const std::vector<SystemUnit>& units,
               const Unknowns& unknowns, const ObservedSubspace& observed,
-              const interp::BsplineBasis& basis, const std::vector<model::MarkPoint>& marks)
+              const interp::BsplineBasis& basis, const std::vector<MarkPoint>& marks)
       : units_(units), rows_(as_size(design.rows())) {
     const Index penalised = observed.penalised.cols();
-    const Index first_bend = unknowns.first_penalised_of(model::Side::left);
+    const Index first_bend = unknowns.first_penalised_of(Side::left);
     const Index plain = unknowns.total() - 2 * penalised;
-    const auto splines = [&](model::Side side) { return plain + row_of(side) * basis.size(); };
+    const auto splines = [&](Side side) { return plain + row_of(side) * basis.size(); };
     to_unknowns_ = MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
     std::vector<Index> columns;
     for (Index k = 0; k < unknowns.total(); ++k) {
@@ -44,7 +44,7 @@ class LocalDesign {
       to_unknowns_(std::ssize(columns), k) = 1.0;
       columns.push_back(k);
     }
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       to_unknowns_.block(splines(side), unknowns.first_penalised_of(side), basis.size(),
                          penalised) = observed.penalised;
     }
@@ -59,7 +59,7 @@ class LocalDesign {
         const interp::BasisSupport at = basis.at(marks[place.place].x_mm, marks[place.place].y_mm);
         for (Index i = 0; i < unit.rows; ++i) {
           auto& row = rows_[as_size(unit.first_row + i)];
-          for (const model::Side side : model::kSides) {
+          for (const Side side : kSides) {
             const double by_chain = place.by_chain(i, row_of(side));
             for (std::size_t k = 0; by_chain != 0.0 && k < at.index.size(); ++k)
               row.emplace_back(splines(side) + at.index[k], by_chain * at.value[k]);

@@ -69,13 +69,13 @@ void add_columns(ObservationSet& set) {
 
 }  // namespace
 
-ObservationSet observation_set(model::Machine stated, const observation::Observations& observations,
-                               std::shared_ptr<const model::Mechanism> mechanism) {
+ObservationSet observation_set(Machine stated, const observation::Observations& observations,
+                               std::shared_ptr<const Mechanism> mechanism) {
   ObservationSet set;
   const bool chains = mechanism == nullptr;
   set.mechanism = chains ? model::make_chain_mechanism(stated) : std::move(mechanism);
   set.stated = std::move(stated);
-  if (chains) set.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  if (chains) set.settings.assign(kMachineSettings.begin(), kMachineSettings.end());
   for (const auto& observation : observations) {
     ObservationPart part;
     if (observation->sheet()) {
@@ -122,7 +122,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
 }
 
 MachineState stated_state(const ObservationSet& set) {
-  return {set.stated, std::vector<model::SheetPlacement>(set.sheets),
+  return {set.stated, std::vector<SheetPlacement>(set.sheets),
           set.is_of_chains() ? nullptr : set.mechanism};
 }
 
@@ -137,7 +137,7 @@ VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
     values(k) = model::stated_value(state.machine, set.settings[as_size(k)]);
   }
   for (std::size_t i = 0; i < set.sheets; ++i) {
-    const model::SheetPlacement& sheet = state.sheets[i];
+    const SheetPlacement& sheet = state.sheets[i];
     values.segment<3>(ObservationSet::sheet_column(i)) << sheet.x_mm, sheet.y_mm,
         sheet.rotation_rad;
   }

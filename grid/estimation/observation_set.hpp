@@ -41,7 +41,7 @@ inline constexpr double kKnownSigma = 1e-7;
 inline constexpr double kSessionZeroSigmaMm = 3.0;
 
 /// Settings of the machine: the first columns.
-inline constexpr auto kMachineSettingCount = std::ssize(model::kMachineSettings);
+inline constexpr auto kMachineSettingCount = std::ssize(kMachineSettings);
 
 /// An observation's share of the rows, places, units and columns.
 struct ObservationPart {
@@ -60,8 +60,8 @@ struct ObservationPart {
 struct NumberedPlace {
   std::size_t part = 0;
   std::size_t index = 0;  ///< into the points, or the holes, of all files in their order
-  model::MarkPoint mark;
-  model::ChainLengths lengths;
+  MarkPoint mark;
+  ChainLengths lengths;
   int order = 0;
 };
 
@@ -78,14 +78,14 @@ template <class What>
 std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const ObservationSet& set);
 
 struct ObservationSet {
-  model::Machine stated;
+  Machine stated;
   /// The mechanism: two chains of `stated`, or another one, which `stated` does not describe.
-  std::shared_ptr<const model::Mechanism> mechanism;
+  std::shared_ptr<const Mechanism> mechanism;
   std::vector<ObservationPart> parts;
   std::vector<NumberedPlace> places;
   std::vector<NumberedUnit> units;
   /// For two chains, those of a sheet once for each; empty for another mechanism.
-  std::vector<model::Setting> settings;
+  std::vector<Setting> settings;
   std::size_t sheets = 0;
   std::size_t own_zeros = 0;  ///< sessions whose chain zeros are their own
   VectorXd stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
@@ -132,7 +132,7 @@ struct ObservationSet {
     if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
     return any_of(parts, [&](const ObservationPart& part) {
       return part.sheet && part.observation->sheet() &&
-             (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
+             (column - kMachineSettings.size()) / 3 == *part.sheet &&
              part.observation->sheet()->knows(settings[column]);
     });
   }
@@ -167,8 +167,8 @@ struct ObservationSet {
 
 /// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
 /// \throws std::invalid_argument for a sheet under a mechanism other than two chains.
-ObservationSet observation_set(model::Machine stated, const observation::Observations& observations,
-                               std::shared_ptr<const model::Mechanism> mechanism = nullptr);
+ObservationSet observation_set(Machine stated, const observation::Observations& observations,
+                               std::shared_ptr<const Mechanism> mechanism = nullptr);
 
 /// The machine with other observations, each in the frame (sheet and nuisances) of one of the set's
 /// parts; additional nuisances come after all columns.
@@ -192,17 +192,17 @@ std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const Obser
 
 /// Values of a machine's settings and of each sheet's placement.
 struct MachineState {
-  model::Machine machine;
-  std::vector<model::SheetPlacement> sheets;
+  Machine machine;
+  std::vector<SheetPlacement> sheets;
   /// For a mechanism other than two chains; then `machine` is unused.
-  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
-  model::SheetPlacement sheet_of(const ObservationPart& part) const {
-    return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
+  std::shared_ptr<const Mechanism> mechanism = nullptr;
+  SheetPlacement sheet_of(const ObservationPart& part) const {
+    return part.sheet ? sheets.at(*part.sheet) : SheetPlacement{};
   }
 
   observation::View view(const ObservationPart& part) const {
     if (mechanism) return {mechanism, sheet_of(part)};
-    return {model::ReadingModel(machine), sheet_of(part)};
+    return {ReadingModel(machine), sheet_of(part)};
   }
 };
 MachineState stated_state(const ObservationSet& set);

@@ -24,7 +24,7 @@ MatrixXd bending_root(const MatrixXd& penalty, const MatrixXd& polynomials) {
 }  // namespace
 
 ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
-                                   const std::vector<model::MarkPoint>& marks)
+                                   const std::vector<MarkPoint>& marks)
     : polynomials(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = std::ssize(marks);
   const Index size = basis.size();
@@ -35,7 +35,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bendin
   polynomial_rows = MatrixXd::Zero(points, polynomials.cols());
   squares = VectorXd::Zero(points);
   for (Index i = 0; i < points; ++i) {
-    const model::MarkPoint mark = marks[as_size(i)];
+    const MarkPoint mark = marks[as_size(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
     for (std::size_t k = 0; k < support.index.size(); ++k) {
       penalised_rows.row(i) += support.value[k] * root.row(support.index[k]);

@@ -28,7 +28,7 @@ namespace chaintrue::grid {
 
 struct ObservedSubspace {
   ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
-                   const std::vector<model::MarkPoint>& marks);
+                   const std::vector<MarkPoint>& marks);
 
   MatrixXd polynomials;        ///< F
   MatrixXd penalised;          ///< B

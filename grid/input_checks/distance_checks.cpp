@@ -30,11 +30,11 @@ constexpr double kOddDistances = 25.0;
 constexpr double kStrangeDistancesMm = 60.0;
 
 RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
-  const model::BedPoint from = set.holes[distance.from].commanded;
+  const BedPoint from = set.holes[distance.from].commanded;
   RowVectorXd basis = RowVectorXd::Zero(kDistanceBasis);
   basis[6] = 1.0;
   if (!distance.edge) {
-    const model::BedPoint to = set.holes[distance.to].commanded;
+    const BedPoint to = set.holes[distance.to].commanded;
     const Vector2d way = difference(to, from);
     const double length = std::max(1.0, way.norm());
     basis.segment<3>(3) << way.x() * way.x(), way.y() * way.y(), way.x() * way.y();
@@ -82,7 +82,7 @@ Transformation& add_of_holes(HoleTransformations& list, ProblemKind kind, std::s
 }
 
 /// Where a hole was commanded, by what its numbers mean.
-using MeantPlace = std::function<model::BedPoint(model::BedPoint)>;
+using MeantPlace = std::function<BedPoint(BedPoint)>;
 
 void add_of_commands(HoleTransformations& list, ProblemKind kind, std::string sentence,
                      const MeantPlace& meant) {
@@ -105,8 +105,8 @@ void add_units(HoleTransformations& list, Written written) {
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
                     unit.word, factor),
-        [=](model::BedPoint p) {
-          return model::BedPoint{p.x_mm * factor, p.y_mm * factor};
+        [=](BedPoint p) {
+          return BedPoint{p.x_mm * factor, p.y_mm * factor};
         });
   }
 }
@@ -115,7 +115,6 @@ void add_axes(HoleTransformations& list) {
   const auto add = [&](const char* sentence, const MeantPlace& meant) {
     add_of_commands(list, ProblemKind::axes, sentence, meant);
   };
-  using model::BedPoint;
   add("the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
       "counts to the right",
       [](BedPoint p) {
@@ -149,7 +148,7 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross,
     }
     if (of_it < 2) continue;
     const std::string& name = set.holes[h].name;
-    const auto number = [&](const char* axis, double model::BedPoint::*of) {
+    const auto number = [&](const char* axis, double BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
         add_of_holes(list, ProblemKind::doubtful_row,
@@ -159,8 +158,8 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross,
             .penalty = slip.penalty;
       }
     };
-    number("x_mm", &model::BedPoint::x_mm);
-    number("y_mm", &model::BedPoint::y_mm);
+    number("x_mm", &BedPoint::x_mm);
+    number("y_mm", &BedPoint::y_mm);
     add_of_holes(list, ProblemKind::doubtful_row,
                  fmt::format("are x_mm and y_mm of hole {} swapped?", name),
                  [=](MeasuredHoles& meant) {

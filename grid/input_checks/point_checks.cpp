@@ -195,10 +195,10 @@ std::optional<double> apart_from_its_repeat(const PlacedPoints& placed, std::siz
   std::optional<double> apart;
   for (std::size_t j = 0; j < points.size(); ++j) {
     if (j == row || !places[j]) continue;
-    const model::BedPoint a = *places[row];
-    const model::BedPoint b = *places[j];
+    const BedPoint a = *places[row];
+    const BedPoint b = *places[j];
     if (distance_mm(a, b) > kRepeatMm) continue;
-    const model::MarkPoint m = points[row].mark;
+    const MarkPoint m = points[row].mark;
     apart = distance_mm(m, points[j].mark);
   }
   return apart;
@@ -253,7 +253,7 @@ struct PointRows {
 
   RowFinding words_of(std::size_t row, const RowError& slip) const {
     const std::string number = number_of(grid, row);
-    const model::MarkPoint mark = grid.points[row].mark;
+    const MarkPoint mark = grid.points[row].mark;
     const auto& motors = grid.machine->motors;
     if (!accounts.can_hold(mark)) {
       const bool is_above = mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm);

@@ -15,9 +15,6 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-using model::BedPoint;
-using model::MarkPoint;
-
 MarkPoint scaled(MarkPoint mark, double x, double y) { return {x * mark.x_mm, y * mark.y_mm}; }
 
 void scale_reading(MeasuredPoint& point, double factor) {
@@ -193,7 +190,7 @@ std::string origin_in_words(const Origin& x, const Origin& y) {
 }
 
 /// Edges and corners of the bed, and motors.
-void add_origins(List& list, const model::Machine& machine) {
+void add_origins(List& list, const Machine& machine) {
   const auto both_ways = [](std::vector<Origin>& list_of, Origin own, const char* back) {
     list_of.push_back(own);
     own.way = back;

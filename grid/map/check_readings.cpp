@@ -31,8 +31,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::MarkPoint;
-
 using Entries = std::vector<Eigen::Triplet<double>>;
 
 /// More would take over some ten seconds (docs/reliability.md).
@@ -51,11 +49,11 @@ struct Repeated {
 
 /// The new points of one file: their positions on the map, and their readings.
 struct CheckedPart {
-  std::vector<model::MarkPoint> marks;  ///< on the map
+  std::vector<MarkPoint> marks;  ///< on the map
   /// For a newly placed sheet: the accuracy of its placement, and where the readings put it in the
   /// map's frame. Everything is linearised there.
   std::optional<observation::SheetPrior> sheet;
-  model::SheetPlacement placement;
+  SheetPlacement placement;
   std::vector<std::string> notes;
   std::vector<Repeated> points;  ///< of a grid
   StatedNoise noise;
@@ -77,7 +75,7 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
     if (is_new) result.push_back({point, 0.0});
     Repeated& one = result[place->second];
     one.count += 1.0;
-    for (const model::Side side : model::kSides)
+    for (const Side side : kSides)
       one.point.lengths[side] += (point.lengths[side] - one.point.lengths[side]) / one.count;
   }
   return result;
@@ -127,11 +125,11 @@ Matrix2d noise_at(const CheckedPart& part, const Repeated& one, const Matrix2d& 
 
 /// Places the sheet and its marks by the readings and its prior.
 void lay(const CompensationMap& map, CheckedPart& part) {
-  const auto on_map = [](const model::SheetPlacement& sheet, const Repeated& one) {
+  const auto on_map = [](const SheetPlacement& sheet, const Repeated& one) {
     return model::identity_placement(sheet.to_bed(one.point.mark));
   };
   part.placement = estimation::fit_placement(
-      [&](const model::SheetPlacement& sheet, estimation::PlacementNormal& sum) {
+      [&](const SheetPlacement& sheet, estimation::PlacementNormal& sum) {
         for (const Repeated& one : part.points) {
           const auto here = map.lengths(on_map(sheet, one));
           if (!here) return false;
@@ -209,7 +207,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
 /// The map at N places of new readings: d(lengths)/d(mark), and the uncertainty of its lengths, one
 /// sigma a column, jointly or place by place.
 struct MapAt {
-  std::vector<model::ChainLengths> lengths;
+  std::vector<ChainLengths> lengths;
   std::vector<Matrix2d> by_mark;
   MatrixXd factor;                  ///< F, 2 N x any
   Eigen::SparseMatrix<double> own;  ///< of each place by itself where F has none, 2 N x 2 N
@@ -226,11 +224,11 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's uncertainty is not linear in the unknowns, so its points are used directly.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  constexpr auto& kOfMachine = model::kMachineSettings;
+  constexpr auto& kOfMachine = kMachineSettings;
   at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
   at.factor.resize(2 * count, is_joint ? surface->covariance_factor.cols() : 0);
   at.own.resize(2 * count, 2 * count);
-  std::optional<model::ReadingModel> model;
+  std::optional<ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
   for (Index i = 0; i < count; ++i) {
     const double share = as_double(i) / as_double(count);
@@ -368,7 +366,7 @@ class Gathered {
       // with the rotation to first order.
       if (distance.edge) {
         by_sheet.row(k) = -geometry.by_mark.block<1, 2>(k, 2 * as_index(distance.from)) *
-                          model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
+                          SheetPlacement{}.sensitivity(part.marks[distance.from]);
       }
     }
     gather(set.hole_sigma_mm * geometry.by_mark, before);
@@ -426,7 +424,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     return files.size() > 1 ? file.name + ": " : std::string{};
   };
   std::vector<CheckedPart> parts;
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const MeasuredFile& file : files) {
     auto part =
         std::visit([&map](const auto& one) { return checked_part(map, one); }, file.measured);
@@ -446,11 +444,9 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   }
   CheckReadings readings = std::move(gathered).readings();
   constexpr double kUsualPitchMm = 6.35;
-  readings.changes = map.machine() != nullptr
-                         ? model::ReadingModel(*map.machine()).possible_changes()
-                         : model::changes_of_chains(kUsualPitchMm);
-  const model::ChainLengths zero =
-      map.machine() != nullptr ? map.machine()->chain_zero : model::ChainLengths{};
+  readings.changes = map.machine() != nullptr ? ReadingModel(*map.machine()).possible_changes()
+                                              : model::changes_of_chains(kUsualPitchMm);
+  const ChainLengths zero = map.machine() != nullptr ? map.machine()->chain_zero : ChainLengths{};
   readings.zero_mm = {zero.left_mm, zero.right_mm};
   for (std::size_t k = 0; k < parts.size(); ++k) {
     for (const std::string& note : parts[k].notes)

@@ -14,13 +14,11 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
-
 constexpr int kColumns = 25;
 constexpr int kRows = 13;
 
 /// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
-std::optional<Matrix2d> jacobian_at(const LengthMap& map, BedPoint at, model::ChainLengths here,
+std::optional<Matrix2d> jacobian_at(const LengthMap& map, BedPoint at, ChainLengths here,
                                     BedPoint middle) {
   // The error of a one-sided step is half of it over a chain's length, 5e-6; that of rounding 1e-7.
   constexpr double kStepMm = 0.01;
@@ -53,7 +51,7 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
     if (!jacobian) return;
     places.push_back({at, *lengths, jacobian->inverse(), map.tool_spread(at), is_on_edge});
   };
-  for (const model::MarkPoint& mark : raster(box, kColumns, kRows, RasterOf::cells)) {
+  for (const MarkPoint& mark : raster(box, kColumns, kRows, RasterOf::cells)) {
     if (area.contains(mark.x_mm, mark.y_mm)) add(model::identity_placement(mark), false);
   }
   const double spacing = std::max(box.width() / kColumns, box.height() / kRows);
@@ -69,15 +67,15 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
 
 std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame) {
   std::vector<BedPoint> hull;
-  for (const model::MarkPoint corner : map.contents().hull) {
+  for (const MarkPoint corner : map.contents().hull) {
     hull.push_back(frame == MapFrame::bed ? map.to_bed(corner) : model::identity_placement(corner));
   }
   return measured_places(MapInFrame(map, frame), hull);
 }
 
-PaidOut paid_out_by(const model::Machine& machine) {
+PaidOut paid_out_by(const Machine& machine) {
   return [controller = std::shared_ptr(model::make_controller_kinematics(machine))](
-             BedPoint command) -> std::optional<model::ChainLengths> {
+             BedPoint command) -> std::optional<ChainLengths> {
     const auto lengths = controller->lengths(command);
     return lengths ? std::optional(*lengths) : std::nullopt;
   };
@@ -114,7 +112,7 @@ namespace {
 
 /// An ideal controller uses the machine file. What a diagnosis added later did not affect the
 /// commands.
-bool is_controller_machine(const model::Machine& machine) {
+bool is_controller_machine(const Machine& machine) {
   return machine.controller.kind != model::ControllerKind::ideal ||
          none_of(machine.effects,
                  [](const auto& effect) { return effect.probability.has_value(); });

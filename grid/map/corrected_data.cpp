@@ -13,8 +13,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::AppliedEffect;
-using model::Machine;
 using model::effects::Effect;
 using model::effects::find_effect;
 using model::effects::Station;
@@ -44,9 +42,9 @@ std::string names_of(const Machine& machine) {
   return names;
 }
 
-tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
+tl::expected<std::vector<ChainLengths>, FitFailure> readings_with(
     const Machine& machine, const std::vector<model::Visit>& visits) {
-  auto read = model::readings(model::ReadingModel(machine), visits);
+  auto read = model::readings(ReadingModel(machine), visits);
   if (read) return *std::move(read);
   return failed(FitReason::point_unreachable,
                 fmt::format("point {} cannot be reached by the machine in your file: {}",
@@ -66,10 +64,10 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid, const Machin
   const auto quiet = readings_with(without, visits);
   if (!quiet) return tl::unexpected(quiet.error());
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    const model::ChainLengths read = (*points)[i].lengths;
+    const ChainLengths read = (*points)[i].lengths;
     grid.points[i].lengths =
-        model::ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),
-                            read.right_mm - ((*disturbed)[i].right_mm - (*quiet)[i].right_mm)};
+        ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),
+                     read.right_mm - ((*disturbed)[i].right_mm - (*quiet)[i].right_mm)};
     grid.points[i].commanded.reset();
   }
   return {};

@@ -21,19 +21,17 @@ namespace chaintrue::grid {
 
 namespace {
 
-using model::Side;
-
 /// A full grid and its values.
 struct Lattice : LatticeNodes {
-  model::PerSide<MatrixXd> lengths_mm;
+  PerSide<MatrixXd> lengths_mm;
 };
 
 /// Repeats are averaged.
 Lattice lattice_of(const std::vector<LengthPoint>& points) {
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const LengthPoint& point : points) marks.push_back(point.mark);
   Lattice lattice{lattice_nodes(marks), {}};
-  for (const Side side : model::kSides) {
+  for (const Side side : kSides) {
     MatrixXd& lengths_mm = lattice.lengths_mm[side];
     lengths_mm = MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -132,7 +130,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   map.name = grid.name;
   map.domain = {lattice.x_nodes_mm.front(), lattice.x_nodes_mm.back(), lattice.y_nodes_mm.front(),
                 lattice.y_nodes_mm.back()};
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const LengthPoint& point : *points) marks.push_back(point.mark);
   const MeasuredArea area(marks, map.domain);
   map.hull = area.hull();

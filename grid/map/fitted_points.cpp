@@ -27,25 +27,23 @@ Vector2d to_tool(const Matrix2d& mark_jacobian, const Vector2d& chain_mm) {
 
 /// On the sheet. The controller uses neither the stated machine nor the catenary; a machine that
 /// reaches its commanded places is right.
-Vector2d landed_minus_sent(model::BedPoint commanded, const model::SheetPlacement& sheet,
-                           model::MarkPoint mark) {
-  const model::BedPoint place = sheet.to_bed(mark);
+Vector2d landed_minus_sent(BedPoint commanded, const SheetPlacement& sheet, MarkPoint mark) {
+  const BedPoint place = sheet.to_bed(mark);
   return sheet.rotation().transpose() * difference(place, commanded);
 }
 
 /// Fits the placement of the sheet under the uncalibrated machine, by weighted least squares on its
 /// good points.
-model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points,
-                                          const MeasuredGrid& grid,
-                                          const observation::PointNoise& noise,
-                                          const model::ReadingModel& stated) {
+SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points, const MeasuredGrid& grid,
+                                   const observation::PointNoise& noise,
+                                   const ReadingModel& stated) {
   std::vector<LengthPoint> good;
   for (const FittedPoint& point : points) {
     if (!point.is_rejected()) good.push_back(point.point);
   }
   const observation::ChainLengthReadings readings =
       chain_length_readings(good, noise, 0.0, grid.sheet);
-  return estimation::fit_placement([&](const model::SheetPlacement& sheet,
+  return estimation::fit_placement([&](const SheetPlacement& sheet,
                                        estimation::PlacementNormal& sum) {
     const auto line = readings.linearise({stated, sheet}, {.sheet = true});
     if (!line) return false;
@@ -64,7 +62,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
 
 /// Where the tool landed minus where the uncalibrated machine puts it: the command, or the position
 /// of the lengths; zero if that machine has no pose.
-Vector2d error_as_stated(const model::ReadingModel& model, const model::SheetPlacement& sheet,
+Vector2d error_as_stated(const ReadingModel& model, const SheetPlacement& sheet,
                          const LengthPoint& point) {
   if (point.commanded) return landed_minus_sent(*point.commanded, sheet, point.mark);
   const auto reading = model.at(sheet.to_bed(point.mark));
@@ -103,9 +101,9 @@ MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points) {
 
 std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points, const MeasuredGrid& grid,
                                  const observation::PointNoise& noise) {
-  const model::ReadingModel stated(*grid.machine);
-  const model::SheetPlacement laid =
-      grid.sheet ? fit_sheet_placement(points, grid, noise, stated) : model::SheetPlacement{};
+  const ReadingModel stated(*grid.machine);
+  const SheetPlacement laid =
+      grid.sheet ? fit_sheet_placement(points, grid, noise, stated) : SheetPlacement{};
   std::vector<MapPoint> result;
   for (const FittedPoint& fitted : points) {
     MapPoint point;
@@ -123,8 +121,6 @@ std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points, const M
 }
 
 namespace {
-
-using model::MarkPoint;
 
 /// Sigmas from which a tape's zero offset is reported: one sound file in 370 exceeds it.
 constexpr double kTapeZeroSigmas = 3.0;
@@ -234,7 +230,7 @@ std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDi
   return notes;
 }
 
-interp::Rectangle holes_domain(const model::Bed& bed) {
+interp::Rectangle holes_domain(const Bed& bed) {
   constexpr double kMarginMm = 50.0;
   return area_of(bed, kMarginMm);
 }

@@ -69,10 +69,10 @@ struct FoundTapeZero {
 };
 
 struct FittedHole {
-  model::ChainLengths lengths;  ///< paid out
-  model::MarkPoint as_stated;   ///< where the machine as stated puts it, in the sheet's frame
-  model::MarkPoint predicted;   ///< where the fitted machine puts it
-  model::MarkPoint place;       ///< where the distances put it
+  ChainLengths lengths;  ///< paid out
+  MarkPoint as_stated;   ///< where the machine as stated puts it, in the sheet's frame
+  MarkPoint predicted;   ///< where the fitted machine puts it
+  MarkPoint place;       ///< where the distances put it
 };
 
 /// An estimate's results for one set of distances among its observations.
@@ -96,6 +96,6 @@ std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDi
 inline constexpr int kHolesIntervalsX = 4;
 inline constexpr int kHolesIntervalsY = 3;
 /// The bed, as far as a sheet may reach beyond it.
-interp::Rectangle holes_domain(const model::Bed& bed);
+interp::Rectangle holes_domain(const Bed& bed);
 
 }  // namespace chaintrue::grid

@@ -265,15 +265,15 @@ tl::expected<Fitting, FitFailure> Fitting::of(estimation::EstimationInput input)
   return Fitting{std::move(input), *std::move(estimate)};
 }
 
-model::MarkPoint Fitting::in_frame(std::size_t file, model::MarkPoint mark) const {
+MarkPoint Fitting::in_frame(std::size_t file, MarkPoint mark) const {
   if (file == 0) return mark;
   return estimate.observations[0].sheet.to_mark(estimate.observations[file].sheet.to_bed(mark));
 }
 
-tl::expected<void, FitFailure> check_readings_of(const model::Machine& machine,
+tl::expected<void, FitFailure> check_readings_of(const Machine& machine,
                                                  const std::vector<ExtraReading>& readings,
                                                  const char* what) {
-  const model::Machine read = with_readings(machine, readings);
+  const Machine read = with_readings(machine, readings);
   std::string problems;
   std::vector<model::MachineProblem> found = model::problems_of(read);
   append_all(found, model::effects::problems_of_effects(read));

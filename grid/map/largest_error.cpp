@@ -37,7 +37,7 @@ ModelSurface& surface_of(MapContents& contents) {
 }
 
 /// Differences of the lengths at one place, a row for each chain; empty if a map does not answer.
-Matrix2Xd differences_at(const std::vector<MapDifference>& differences, model::MarkPoint mark) {
+Matrix2Xd differences_at(const std::vector<MapDifference>& differences, MarkPoint mark) {
   Matrix2Xd at(2, std::ssize(differences));
   for (std::size_t k = 0; k < differences.size(); ++k) {
     const auto from = differences[k].from.lengths(mark);
@@ -54,13 +54,13 @@ MatrixXd on_splines(const interp::BsplineBasis& basis,
   // Two places for each function of an axis determine the splines; the ridge holds those that no place is near.
   constexpr int kPerFunction = 2;
   constexpr double kRidge = 1e-6;
-  const std::vector<model::MarkPoint> marks =
+  const std::vector<MarkPoint> marks =
       raster(basis.rectangle(), kPerFunction * static_cast<int>(basis.columns_x()),
              kPerFunction * static_cast<int>(basis.columns_y()), RasterOf::nodes);
   const auto count = std::ssize(differences);
   MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
   Index used = 0;
-  for (const model::MarkPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     const Matrix2Xd at = differences_at(differences, mark);
     if (at.cols() != count) continue;
     design.row(used) = basis.row(mark.x_mm, mark.y_mm);
@@ -122,7 +122,7 @@ CompensationMap with_differences(const CompensationMap& map,
   ModelSurface& surface = surface_of(contents);
   const MatrixXd splines = on_splines(surface.residual.basis, differences);
   MatrixXd directions = MatrixXd::Zero(surface.columns.total(), splines.cols());
-  directions.middleRows(surface.columns.spline(model::Side::left), splines.rows()) = splines;
+  directions.middleRows(surface.columns.spline(Side::left), splines.rows()) = splines;
   surface.covariance_factor =
       lower_factor(linear::outer(surface.covariance_factor) + linear::outer(directions));
   return with_expected_error(std::move(contents));

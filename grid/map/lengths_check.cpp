@@ -10,7 +10,7 @@
 namespace chaintrue::grid {
 namespace {
 
-void name_rows(const observation::BeltLengthReadings& observed, const model::Mechanism& mechanism,
+void name_rows(const observation::BeltLengthReadings& observed, const Mechanism& mechanism,
                CheckReadings& readings) {
   for (std::size_t u = 0; u < observed.units().size(); ++u) {
     const observation::Unit& unit = observed.units()[u];

@@ -26,7 +26,7 @@ namespace chaintrue::grid {
 
 /// A mechanism with its calibrated values and their covariance.
 struct FittedMechanism {
-  std::shared_ptr<const model::Mechanism> mechanism;
+  std::shared_ptr<const Mechanism> mechanism;
   MatrixXd covariance;     ///< of its parameters
   double length_mm = 0.0;  ///< one sigma of a length that is read
   /// For the fit that found the noise; infinite: it is known.

@@ -48,8 +48,8 @@ MirrorTest test_mirror(const CompensationMap& map) {
   const interp::Rectangle& domain = map.contents().domain;
   const double middle_mm = map.machine() == nullptr ? 0.5 * (domain.x_min + domain.x_max) : 0.0;
   for (const MapPoint& point : map.contents().points) {
-    const model::BedPoint bed = map.to_bed(point.mark);
-    const model::MarkPoint mirrored = map.to_mark({2.0 * middle_mm - bed.x_mm, bed.y_mm});
+    const BedPoint bed = map.to_bed(point.mark);
+    const MarkPoint mirrored = map.to_mark({2.0 * middle_mm - bed.x_mm, bed.y_mm});
     const MapStatus status = map.status(mirrored);
     if (point.bad || (status != MapStatus::inside && status != MapStatus::edge)) continue;
     const auto here = map.query(point.mark);

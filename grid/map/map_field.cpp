@@ -12,10 +12,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::MarkPoint;
-using model::Setting;
-using model::Side;
-
 /// One chain's splines of a ResidualSurface.
 class SplineSurface final : public interp::Surface {
  public:
@@ -56,7 +52,7 @@ class DesignSpread {
       add(as_index(i), slope[1], spread.col(1));
     }
     const interp::BasisSupport support = basis_.at(mark.x_mm, mark.y_mm);
-    for (const Side side : model::kSides) {
+    for (const Side side : kSides) {
       auto own = spread.col(row_of(side));
       add(columns_.scale(side), reading->lengths[side], own);
       for (std::size_t k = 0; k < support.index.size(); ++k)
@@ -71,8 +67,8 @@ class DesignSpread {
     sum.head(column + 1) += slope * factor_.col(column).head(column + 1);
   }
 
-  model::SheetPlacement sheet_;
-  model::ReadingModel model_;
+  SheetPlacement sheet_;
+  ReadingModel model_;
   std::vector<Setting> settings_;
   FitColumns columns_;
   interp::BsplineBasis basis_;
@@ -143,11 +139,11 @@ MapField::MapField(const MapContents& contents) {
       const auto& [x, y, values_mm, doubt_mm, sigma_mm] = *surface.lattice;
       const auto quintic =
           std::make_shared<const interp::TensorAxes>(x, y, interp::TensorEnds{}, 5);
-      for (const Side side : model::kSides)
+      for (const Side side : kSides)
         surfaces_[side] = std::make_shared<const interp::TensorSpline>(quintic, values_mm[side]);
       spread_at_ = NodeSpread{{x, y, doubt_mm}, doubt_mm, sigma_mm, 1.0, contents.noise};
     } else {
-      for (const Side side : model::kSides) {
+      for (const Side side : kSides) {
         surfaces_[side] = std::make_shared<const SplineSurface>(
             surface.residual.basis, surface.residual.coefficients[side]);
       }
@@ -172,7 +168,7 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
     here.lengths = reading->lengths;
     here.mark_jacobian = reading->position_jacobian * sheet_.rotation();
   }
-  for (const Side side : model::kSides) {
+  for (const Side side : kSides) {
     const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
     auto slope = here.mark_jacobian.row(row_of(side));
     here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
@@ -191,7 +187,7 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
 Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
   Vector2d change = Vector2d::Zero();
   if (beyond_->hull.contains(mark.x_mm, mark.y_mm)) return change;
-  for (const Side side : model::kSides) {
+  for (const Side side : kSides) {
     const Index row = row_of(side);
     const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
     const interp::ValueGradient reply =

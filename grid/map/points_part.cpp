@@ -29,7 +29,7 @@ constexpr WorkStep kNoise{"how large the noise is", 3, FitPart::kStepsToFindNois
 
 /// The bed, the margin for hand-laid marks beyond it, and all points.
 interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
-  const model::Bed& bed = grid.machine->bed;
+  const Bed& bed = grid.machine->bed;
   double beyond = 0.0;
   if (grid.sheet)
     beyond = 2.0 * grid.sheet->shift_mm + 1e-3 * grid.sheet->rotation_mrad * 0.5 * bed.width_mm;

@@ -19,7 +19,6 @@ namespace chaintrue::grid {
 namespace {
 
 using model::ControllerSettings;
-using model::Machine;
 
 /// The machine with which settings are compared.
 struct Truth {
@@ -192,7 +191,7 @@ std::vector<std::pair<std::string, Machine>> machines_without(const Machine& mac
     stiff.chain.compliance_per_n = 0.0;
     without.emplace_back("chain_stretch", stiff);
   }
-  for (const model::AppliedEffect& applied : machine.effects) {
+  for (const AppliedEffect& applied : machine.effects) {
     const std::string& id = applied.effect;
     const bool is_known = id == "ring_radius" || id == "chain_pitch_error" || id == "chain_sag" ||
                           id == "chain_stretch" || id.starts_with("sled_");
@@ -290,8 +289,8 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(
   return settings_for(truth);
 }
 
-tl::expected<SettingsToType, SettingsFailure> settings_to_type(
-    const Machine& machine, const std::vector<model::BedPoint>& hull) {
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Machine& machine,
+                                                               const std::vector<BedPoint>& hull) {
   Truth truth;
   truth.machine = machine;
   truth.places = [&hull](const Machine& one) {

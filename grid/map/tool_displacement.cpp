@@ -11,8 +11,8 @@
 
 namespace chaintrue::grid {
 
-MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                             const std::vector<model::MarkPoint>& to, double reach_mm) {
+MatrixXd displacement_kernel(const std::vector<MarkPoint>& from, const std::vector<MarkPoint>& to,
+                             double reach_mm) {
   MatrixXd kernel(std::ssize(from), std::ssize(to));
   for (std::size_t i = 0; i < from.size(); ++i) {
     for (std::size_t j = 0; j < to.size(); ++j) {
@@ -40,11 +40,11 @@ ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(p
   weights_mm_ = inverse_ * at;
 }
 
-Vector2d ToolDisplacement::at(model::MarkPoint mark) const {
+Vector2d ToolDisplacement::at(MarkPoint mark) const {
   return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
 }
 
-double ToolDisplacement::own_variance_mm2(model::MarkPoint mark) const {
+double ToolDisplacement::own_variance_mm2(MarkPoint mark) const {
   const RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
   return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
 }

@@ -51,12 +51,12 @@ struct LengthsAtPlace {
   std::vector<bool> counting;  ///< of each length; empty: all
   model::MechanismVisit visit;
   /// Where the tool was, in the mechanism's frame; empty: unknown.
-  std::optional<model::ToolPosition> known = std::nullopt;
+  std::optional<ToolPosition> known = std::nullopt;
   /// Counting lengths that are not used to find the position; empty: none.
   std::vector<bool> rejected = {};
   /// For an unknown position: q to linearise about. The residuals are those there; to first order
   /// they do not depend on a nearby q. Empty: q of (1).
-  std::optional<model::ToolPosition> about = std::nullopt;
+  std::optional<ToolPosition> about = std::nullopt;
 
   bool counts(Index length) const { return counting.empty() || counting.at(as_size(length)); }
   Index counted() const {
@@ -74,7 +74,7 @@ struct BeltNoise {
 
 /// Lengths and distances whose positions are found together, about a view.
 struct BlockLine {
-  std::vector<model::ToolPosition> positions;
+  std::vector<ToolPosition> positions;
   VectorXd residual_mm;   ///< all lengths place by place, then the distances
   MatrixXd by_position;   ///< times 2 a place
   MatrixXd by_parameter;  ///< times p, or 0
@@ -132,9 +132,9 @@ class BeltLengthReadings final : public Observation {
   void number_rows(const Block& block, std::vector<double>& measured);
   [[nodiscard]] tl::expected<void, Unreachable> find_positions(const View& view, const Block& block,
                                                                BlockLine& line) const;
-  [[nodiscard]] tl::expected<BlockLine, Unreachable> line_at(
-      const View& view, const Block& block, std::vector<model::ToolPosition> positions,
-      bool with_parameters) const;
+  [[nodiscard]] tl::expected<BlockLine, Unreachable> line_at(const View& view, const Block& block,
+                                                             std::vector<ToolPosition> positions,
+                                                             bool with_parameters) const;
 
   std::vector<LengthsAtPlace> readings_;
   std::vector<TapedDistance> distances_;

@@ -24,7 +24,7 @@ std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
 }  // namespace
 
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
-    const View& view, const Block& block, std::vector<model::ToolPosition> positions,
+    const View& view, const Block& block, std::vector<ToolPosition> positions,
     bool with_parameters) const {
   const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
                                       : model::Derivatives::by_position;
@@ -49,7 +49,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
   for (const std::size_t k : block.distances) {
     const TapedDistance& distance = distances_[k];
     std::array<std::optional<std::size_t>, 2> slots;  // of its ends, among the block's places
-    std::array<model::ToolPosition, 2> ends;
+    std::array<ToolPosition, 2> ends;
     for (std::size_t e = 0; e < 2; ++e) {
       const auto* place = std::get_if<AtPlace>(e == 0 ? &distance.from : &distance.to);
       if (place == nullptr) continue;
@@ -84,7 +84,7 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
         linear::PivotedCholesky(linear::product(linear::transposed(weighed), line.by_position))
             .solve(linear::product(linear::transposed(weighed), line.residual_mm));
     if (!move.allFinite()) break;
-    std::vector<model::ToolPosition> next = line.positions;
+    std::vector<ToolPosition> next = line.positions;
     for (std::size_t p = 0; p < next.size(); ++p) {
       next[p].x_mm += move[2 * as_index(p)];
       next[p].y_mm += move[2 * as_index(p) + 1];
@@ -102,7 +102,7 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& view,
                                                                     const Block& block,
                                                                     bool with_parameters) const {
-  std::vector<model::ToolPosition> positions;
+  std::vector<ToolPosition> positions;
   for (const std::size_t place : block.places) {
     const LengthsAtPlace& own = readings_[place];
     if (own.known || own.about) {

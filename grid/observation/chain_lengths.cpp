@@ -49,7 +49,7 @@ tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& v
         model::mechanism_failure(lengths.error().reason).at(lengths.error().place));
   VectorXd all(rows());
   for (std::size_t i = 0; i < lengths->size(); ++i) {
-    model::ChainLengths own = (*lengths)[i];
+    ChainLengths own = (*lengths)[i];
     if (view.correction != nullptr) {
       own = view.correction->at(places_[i].mark, own, Matrix2d::Zero()).lengths;
     }
@@ -61,16 +61,16 @@ tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& v
 
 tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const View& view, const Columns& columns) const {
-  const std::vector<model::Setting> settings = settings_in(columns);
+  const std::vector<Setting> settings = settings_in(columns);
   const model::MarkFrame frame(view.chains().machine());
   Linearisation line = blank(std::ssize(settings));
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const model::MarkPoint place = frame.place(places_[i].mark);
+    const MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.chains().at(view.sheet.to_bed(place));
     if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
     ChainPlaceState state{*reading, places_[i].mark,
                           reading->position_jacobian * view.sheet.rotation()};
-    model::ChainLengths lengths = reading->lengths;
+    ChainLengths lengths = reading->lengths;
     if (view.correction != nullptr) {
       const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
       lengths = corrected.lengths;

@@ -30,9 +30,9 @@ namespace chaintrue::grid::observation {
 
 /// A point that was drawn.
 struct DrawnPoint {
-  std::string name;            ///< "A"
-  model::MarkPoint commanded;  ///< in the controller's own frame
-  model::ChainLengths paid_out;
+  std::string name;     ///< "A"
+  MarkPoint commanded;  ///< in the controller's own frame
+  ChainLengths paid_out;
 };
 
 struct DrawnMeasure {

@@ -63,7 +63,7 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near = [&](const std::vector<std::size_t>& group) {
-      const model::MarkPoint first = points[group.front()].mark;
+      const MarkPoint first = points[group.front()].mark;
       return distance_mm(first, points[i].mark) <= kRepeatDistanceMm;
     };
     auto* group = find_where(groups, near);

@@ -29,7 +29,7 @@ std::string words_of(const MeasuredHoles& set, const HoleDistance& distance) {
 }
 
 EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge) {
-  const model::Bed bed = set.machine ? set.machine->bed : model::Bed{};
+  const Bed bed = set.machine ? set.machine->bed : Bed{};
   const double sign = edge == SheetEdge::left || edge == SheetEdge::bottom ? 1.0 : -1.0;
   if (edge == SheetEdge::left || edge == SheetEdge::right)
     return {set.sheet.width_mm.value_or(bed.width_mm), 0, sign};
@@ -37,7 +37,7 @@ EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge) {
 }
 
 double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance) {
-  const model::BedPoint from = set.holes.at(distance.from).commanded;
+  const BedPoint from = set.holes.at(distance.from).commanded;
   if (!distance.edge) return distance_mm(from, set.holes.at(distance.to).commanded);
   const EdgeLine line = edge_line(set, *distance.edge);
   return 0.5 * line.size_mm + line.sign * vector_of(from)[line.axis];

@@ -34,7 +34,7 @@ std::string_view name(SheetEdge edge);
 
 struct Hole {
   std::string name;
-  model::BedPoint commanded;
+  BedPoint commanded;
 };
 
 /// One reading of the tape, the tape's zero offset included: from a hole's centre to another's, or
@@ -78,7 +78,7 @@ struct SheetSize {
 
 struct MeasuredHoles {
   std::string name;
-  std::optional<model::Machine> machine;
+  std::optional<Machine> machine;
   Tape tape;
   /// One sigma on each axis of a hole's displacement from where its chain lengths put it: friction of
   /// the sled, drift of the drill.

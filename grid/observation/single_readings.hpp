@@ -21,11 +21,11 @@ namespace chaintrue::grid::observation {
 
 /// A machine predicts it: motor_spacing_mm, beam_rise_mm, ring_radius_mm (on a ring), link_pitch_mm,
 /// chain_mass_kg_per_m, tape_error_mm_per_m.
-bool is_predictable(const model::Machine& machine, const ExtraReading& reading);
+bool is_predictable(const Machine& machine, const ExtraReading& reading);
 
 /// The machine's prediction, with its effects, of what one would measure.
 /// \throws std::out_of_range for a reading that no machine predicts.
-double predicted_reading(const model::Machine& machine, const ExtraReading& reading);
+double predicted_reading(const Machine& machine, const ExtraReading& reading);
 
 class SingleReadings final : public Observation {
  public:
@@ -50,15 +50,15 @@ class SingleReadings final : public Observation {
   const Kind& kind() const override { return single_readings; }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
-    const std::vector<model::Setting> settings = settings_in(columns);
-    const model::Machine& machine = view.chains().machine();
+    const std::vector<Setting> settings = settings_in(columns);
+    const Machine& machine = view.chains().machine();
     Linearisation line = blank(std::ssize(settings));
     for (std::size_t k = 0; k < readings_.size(); ++k)
       line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
     for (std::size_t s = 0; s < settings.size(); ++s) {
       if (model::is_of_sheet(settings[s])) continue;
-      const model::Machine moved = model::with_setting(
-          machine, settings[s], model::stated_value(machine, settings[s]) + 1.0);
+      const Machine moved = model::with_setting(machine, settings[s],
+                                                model::stated_value(machine, settings[s]) + 1.0);
       for (std::size_t k = 0; k < readings_.size(); ++k) {
         line.by_setting(as_index(k), as_index(s)) =
             predicted_reading(moved, readings_[k]) - predicted_reading(machine, readings_[k]);

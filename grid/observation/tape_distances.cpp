@@ -21,8 +21,6 @@
 namespace chaintrue::grid::observation {
 namespace {
 
-using model::MarkPoint;
-
 /// A set in an order that the file's does not change.
 struct Sorted {
   MeasuredHoles set;
@@ -120,12 +118,12 @@ bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide
     return false;
   // Declared effects may be more than a scale.
   const std::vector<double> values = model::effects::nominal_values(effect);
-  const model::MarkPoint x = effect.write({1.0, 0.0}, side, values);
-  const model::MarkPoint y = effect.write({0.0, 1.0}, side, values);
+  const MarkPoint x = effect.write({1.0, 0.0}, side, values);
+  const MarkPoint y = effect.write({0.0, 1.0}, side, values);
   return x.y_mm == 0.0 && y.x_mm == 0.0 && x.x_mm == y.y_mm;
 }
 
-double tape_factor(const model::Machine& machine) {
+double tape_factor(const Machine& machine) {
   double factor = 1.0;
   for (const model::effects::ActingEffect& acting : model::effects::acting_effects(machine)) {
     if (!is_of_tape(*acting.effect, acting.side)) continue;
@@ -193,10 +191,10 @@ tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& 
 
 tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& view,
                                                                   const Columns& columns) const {
-  const std::vector<model::Setting> settings = settings_in(columns);
+  const std::vector<Setting> settings = settings_in(columns);
   auto states = placed(view);
   if (!states) return tl::unexpected(states.error());
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const ChainPlaceState& state : *states) marks.push_back(state.mark);
   const double factor = tape_factor(view.chains().machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks);
@@ -249,11 +247,11 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
   constexpr double kConvergedMm = 1e-9;
   std::vector<ChainPlaceState> states;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const model::ChainLengths paid_out = places_[i].lengths;
-    model::BedPoint start = model::identity_placement(places_[i].mark);
-    model::ChainLengths own = paid_out;
+    const ChainLengths paid_out = places_[i].lengths;
+    BedPoint start = model::identity_placement(places_[i].mark);
+    ChainLengths own = paid_out;
     // The machine's lengths that equal the paid-out ones after correction at a mark.
-    const auto correct = [&](model::MarkPoint mark) {
+    const auto correct = [&](MarkPoint mark) {
       const auto there = view.correction->at(mark, own, Matrix2d::Zero()).lengths;
       own = {paid_out.left_mm - (there.left_mm - own.left_mm),
              paid_out.right_mm - (there.right_mm - own.right_mm)};
@@ -262,7 +260,7 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
     auto reading = view.chains().find(own, start);
     for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
       start = reading->pose.position;
-      const model::ChainLengths before = own;
+      const ChainLengths before = own;
       correct(view.sheet.to_mark(start));
       if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
           kConvergedMm)

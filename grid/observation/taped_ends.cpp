@@ -12,8 +12,7 @@ namespace {
 
 using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
-MaybePlaced placed(const model::Mechanism& mechanism, const TapeEnd& end,
-                   const model::ToolPosition& place) {
+MaybePlaced placed(const Mechanism& mechanism, const TapeEnd& end, const ToolPosition& place) {
   const Index parameters = mechanism.values().size();
   if (const auto* hole = std::get_if<AtHole>(&end)) return placed_hole(mechanism, *hole);
   if (const auto* fixed = std::get_if<AtFixedPoint>(&end)) {
@@ -25,7 +24,7 @@ MaybePlaced placed(const model::Mechanism& mechanism, const TapeEnd& end,
 
 }  // namespace
 
-tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechanism& mechanism,
+tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const Mechanism& mechanism,
                                                              const AtHole& hole) {
   constexpr model::MechanismReason kNoHole{"no_hole",
                                            "the lengths that were paid out for a hole do not meet"};
@@ -54,8 +53,8 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechan
 }
 
 tl::expected<DistanceLine, model::MechanismFailure> distance_line(
-    const model::Mechanism& mechanism, const TapedDistance& distance,
-    const std::array<model::ToolPosition, 2>& places) {
+    const Mechanism& mechanism, const TapedDistance& distance,
+    const std::array<ToolPosition, 2>& places) {
   const auto from = placed(mechanism, distance.from, places[0]);
   if (!from) return tl::unexpected(from.error());
   const auto to = placed(mechanism, distance.to, places[1]);

@@ -26,7 +26,7 @@ struct MarkInLine {
   double along_mm = 0.0;
 };
 
-MarkInLine in_line(const model::MarkPoint& mark, std::size_t index, const VisitingOrder& order) {
+MarkInLine in_line(const MarkPoint& mark, std::size_t index, const VisitingOrder& order) {
   const double x = order.from_right ? -mark.x_mm : mark.x_mm;
   const double y = order.from_below ? mark.y_mm : -mark.y_mm;
   return order.rows ? MarkInLine{index, y, x} : MarkInLine{index, x, y};
@@ -40,9 +40,9 @@ struct Visits {
 Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& order) {
   Visits visits;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const model::MarkPoint& mark = points[i].mark;
+    const MarkPoint& mark = points[i].mark;
     const bool again = any_of(visits.first, [&](const MarkInLine& place) {
-      const model::MarkPoint& other = points[place.index].mark;
+      const MarkPoint& other = points[place.index].mark;
       return distance_mm(other, mark) <= kRepeatDistanceMm;
     });
     if (again) {

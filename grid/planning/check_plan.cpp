@@ -21,9 +21,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::MarkPoint;
-using model::Side;
-
 /// Positions where the map has an answer, row by row from the top left.
 std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
   interp::Rectangle from_top = area_of(map.machine()->bed, -margin_mm);
@@ -41,7 +38,7 @@ class Separation {
       : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
-  model::PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
+  PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
     std::vector<Index> rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * as_index(point));
@@ -62,7 +59,7 @@ class Separation {
 
   /// Harmonic mean of both chains': near the smaller one, and increased by either.
   double together(const std::vector<std::size_t>& points) const {
-    const model::PerSide<double> answer = squared_sigmas(points);
+    const PerSide<double> answer = squared_sigmas(points);
     return 2.0 / (1.0 / answer.left + 1.0 / answer.right);
   }
 
@@ -87,7 +84,7 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
   const bool sound = request.points >= kFewestCheckPoints && request.points <= kMostCheckPoints &&
                      request.length_mm > 0.0 && request.position_mm >= 0.0 &&
                      request.margin_mm >= 0.0;
-  const model::Machine* machine = map.machine();
+  const Machine* machine = map.machine();
   const bool fits =
       machine == nullptr ||
       2.0 * request.margin_mm < std::min(machine->bed.width_mm, machine->bed.height_mm);
@@ -122,15 +119,15 @@ PlanFailure no_machine() {
           "a direct map has no machine: its bed and the effect of a zero are unknown"};
 }
 
-model::PerSide<double> roots(const model::PerSide<double>& squares) {
+PerSide<double> roots(const PerSide<double>& squares) {
   return {std::sqrt(squares.left), std::sqrt(squares.right)};
 }
 
 }  // namespace
 
-tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
-    const CompensationMap& map, const std::vector<MarkPoint>& marks,
-    const CheckPlanRequest& request) {
+tl::expected<PerSide<double>, PlanFailure> expected_sigmas(const CompensationMap& map,
+                                                           const std::vector<MarkPoint>& marks,
+                                                           const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);
   if (!readings) return tl::unexpected(readings.error());

@@ -38,7 +38,7 @@ inline constexpr Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
 /// A candidate position of a hole, and the derivative of the hole's position on the sheet by the
 /// unknowns.
 struct PlannedPlace {
-  model::MarkPoint place;
+  MarkPoint place;
   Eigen::Matrix<double, 2, kPlanUnknowns> by_unknown;
 };
 
@@ -84,7 +84,7 @@ class DistanceChooser {
   using Holes = std::vector<const PlannedPlace*>;
 
   /// `prior` is S before any measurement; `root` is L.
-  DistanceChooser(const model::Machine& machine, const HolesPlanRequest& request, MatrixXd prior,
+  DistanceChooser(const Machine& machine, const HolesPlanRequest& request, MatrixXd prior,
                   MatrixXd root)
       : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
     frame_.machine = machine;
@@ -136,7 +136,7 @@ class DistanceChooser {
   Measurable measurable(const Holes& holes, std::vector<HoleDistance> distances) const {
     MeasuredHoles set = frame_;
     set.distances = std::move(distances);
-    std::vector<model::MarkPoint> marks;
+    std::vector<MarkPoint> marks;
     for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks);
     const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
@@ -191,11 +191,11 @@ class DistanceChooser {
     if (!request_.edges) return distances;
     // A tape is held square to an edge by eye, to a degree: 0.15 mm at this length.
     constexpr double kLongestToEdgeMm = 1000.0;
-    const model::Bed& bed = frame_.machine->bed;
+    const Bed& bed = frame_.machine->bed;
     const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
     for (std::size_t a = 0; a < holes.size(); ++a) {
       // The nearer of two edges: it is as informative.
-      const model::MarkPoint at = holes[a]->place;
+      const MarkPoint at = holes[a]->place;
       const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,
                                  at.y_mm < 0.0 ? SheetEdge::bottom : SheetEdge::top};
       const double way_mm[] = {0.5 * bed.width_mm - std::abs(at.x_mm),

@@ -43,7 +43,7 @@ struct PlanRequest {
 
 struct MeasurementPlan {
   /// In whole mm, in the order of visits: row by row from the bottom, in alternating directions.
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   int columns = 0;
   int rows = 0;
   /// Points beyond columns * rows.
@@ -64,12 +64,12 @@ using PlanFailure = Failure<PlanReason>;
 /// \throws std::invalid_argument for a number of points out of range, or a margin that leaves no
 /// bed.
 [[nodiscard]] tl::expected<MeasurementPlan, PlanFailure> plan_measurement(
-    const model::Machine& machine, const PlanRequest& request);
+    const Machine& machine, const PlanRequest& request);
 
 /// One sigma of the tool over a raster of the whole bed, row by row from the bottom left, at the
 /// centres of columns x rows equal cells; negative where the map has no answer.
-std::vector<double> expected_error_mm(const CompensationMap& map, const model::Bed& bed,
-                                      int columns, int rows);
+std::vector<double> expected_error_mm(const CompensationMap& map, const Bed& bed, int columns,
+                                      int rows);
 
 // Marks that are visited twice, so that changes during the session show: a zero that moved, drift,
 // friction.

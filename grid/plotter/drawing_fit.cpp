@@ -42,7 +42,7 @@ std::string sentence_of(const TestDrawing& drawing, std::size_t cross, std::stri
 }
 
 tl::expected<estimation::Estimate, DrawingFailure> estimated(
-    const model::PlotterMachine& machine,
+    const PlotterMachine& machine,
     const std::shared_ptr<const observation::DrawnMeasures>& readings) {
   estimation::EstimationInput input;
   input.mechanism = model::make_plotter_mechanism(machine);
@@ -105,12 +105,12 @@ std::optional<VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFi
 
 }  // namespace
 
-model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMachine found) {
+PlotterMachine typed_in(model::PlotterFirmware firmware, PlotterMachine found) {
   using model::PlotterFirmware;
   if (firmware == PlotterFirmware::fluidnc) return found;
-  const auto shared = [](model::ChainLengths own) {
+  const auto shared = [](ChainLengths own) {
     const double mean = 0.5 * (own.left_mm + own.right_mm);
-    return model::ChainLengths{mean, mean};
+    return ChainLengths{mean, mean};
   };
   found.pin_rise_mm = 0.0;
   if (firmware == PlotterFirmware::marlin) return found;
@@ -121,9 +121,9 @@ model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMa
   return found;
 }
 
-tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
-    model::PlotterFirmware firmware, const model::PlotterMachine& set,
-    const model::PlotterMechanism& found, model::BedPoint command) {
+tl::expected<ToolPosition, model::MechanismFailure> pen_of_command(
+    model::PlotterFirmware firmware, const PlotterMachine& set,
+    const model::PlotterMechanism& found, BedPoint command) {
   const auto lengths = model::paid_out(firmware, set, command);
   if (!lengths) return tl::unexpected(model::mechanism_failure(lengths.error()));
   return found.locate_by_first(*lengths);
@@ -148,7 +148,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(DrawingReason::cross_out_of_reach,
                   sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
   }
-  const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<VectorXd> {
+  const DrawnValues drawn = [&](const Mechanism& machine) -> std::optional<VectorXd> {
     const auto values = readings->predicted(View(machine.with_values(machine.values())));
     if (!values) return std::nullopt;
     return in_file_order(*readings, *values);

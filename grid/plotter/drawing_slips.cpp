@@ -91,7 +91,7 @@ DrawingReason reason_of(ProblemKind kind) {
 }
 
 /// The effect of one unit of each parameter.
-MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) {
+MatrixXd derivatives(const DrawnValues& drawn, const Mechanism& machine) {
   constexpr double kStep = 0.1;
   const VectorXd& values = machine.values();
   const auto at_stated = drawn(*machine.with_values(values));
@@ -109,8 +109,8 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const DrawnMeasure& own = drawing.measures[i];
     if (own.kind != Kind::bow) continue;
-    const model::BedPoint a = drawing.crosses.at(own.from).commanded;
-    const model::BedPoint b = drawing.crosses.at(own.to).commanded;
+    const BedPoint a = drawing.crosses.at(own.from).commanded;
+    const BedPoint b = drawing.crosses.at(own.to).commanded;
     const double length = distance_mm(b, a);
     if (std::abs(own.value_mm) <= kMostBowShare * length) continue;
     return DrawingFailure{
@@ -126,7 +126,7 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
 }  // namespace
 
 std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const DrawnValues& drawn,
-                                              const model::Mechanism& machine) {
+                                              const Mechanism& machine) {
   if (auto slip = bow_along_its_line(drawing)) return slip;
   const auto as_set = drawn(machine);
   if (!as_set) return std::nullopt;

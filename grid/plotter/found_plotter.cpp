@@ -5,9 +5,6 @@
 
 namespace chaintrue::grid {
 
-using model::PlotterMachine;
-using model::Side;
-
 namespace {
 
 /// Above the diagonal, row by row.
@@ -67,7 +64,7 @@ SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found) {
   SetPlotter next = set;
   next.machine.pin_spacing_mm = held.pin_spacing_mm;
   next.machine.pin_rise_mm = held.pin_rise_mm;
-  for (const Side side : model::kSides) next.steps_per_mm[side] *= more_steps(set, found, side);
+  for (const Side side : kSides) next.steps_per_mm[side] *= more_steps(set, found, side);
   if (set.firmware == model::PlotterFirmware::mural) {
     const double factor = more_steps(set, found, Side::left);
     const double too_much_mm = held.zero_mm.left_mm - set.machine.zero_mm.left_mm;
@@ -76,7 +73,7 @@ SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found) {
   } else if (set.home) {
     const auto mechanism = model::make_plotter_mechanism(found);
     const auto pen = pen_of_command(set.firmware, set.machine, *mechanism, *set.home);
-    if (pen) next.home = model::BedPoint{pen->x_mm, pen->y_mm};
+    if (pen) next.home = BedPoint{pen->x_mm, pen->y_mm};
   }
   return next;
 }

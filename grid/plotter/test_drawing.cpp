@@ -21,7 +21,7 @@ std::size_t cross_of(char name) { return kCrosses.find(name); }
 
 }  // namespace
 
-TestDrawing planned_drawing(const model::PlotterMachine& machine, model::PlotterFirmware firmware) {
+TestDrawing planned_drawing(const PlotterMachine& machine, model::PlotterFirmware firmware) {
   SetPlotter set;
   set.machine = machine;
   set.firmware = firmware;
@@ -34,7 +34,7 @@ TestDrawing planned_drawing(const SetPlotter& set) {
   TestDrawing drawing;
   static_cast<SetPlotter&>(drawing) = set;
   drawing.name = set.machine.name;
-  const model::BedPoint places[] = {
+  const BedPoint places[] = {
       {a.left_mm, a.top_mm},    {a.right_mm, a.top_mm}, {a.right_mm, a.bottom_mm},
       {a.left_mm, a.bottom_mm}, {x, a.top_mm},          {a.right_mm, y},
       {x, a.bottom_mm},         {a.left_mm, y},         {x, y}};
@@ -89,8 +89,8 @@ using observation::DrawnMeasure;
 
 /// A straight line, in the machine's frame.
 struct DrawnLine {
-  model::BedPoint from;
-  model::BedPoint to;
+  BedPoint from;
+  BedPoint to;
 };
 
 std::vector<DrawnLine> lines_of(const TestDrawing& drawing) {
@@ -112,7 +112,7 @@ std::vector<DrawnLine> lines_of(const TestDrawing& drawing) {
 
 std::string drawing_gcode(const TestDrawing& drawing) {
   const PenCommands& pen = drawing.pen;
-  const auto at = [&](const model::BedPoint& point) {
+  const auto at = [&](const BedPoint& point) {
     return fmt::format("X{:.3f} Y{:.3f}", point.x_mm + drawing.pins_middle.x_mm,
                        point.y_mm + drawing.pins_middle.y_mm);
   };

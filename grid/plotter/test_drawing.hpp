@@ -30,7 +30,7 @@ namespace chaintrue::grid {
 /// A cross, in the machine's frame as it was commanded.
 struct DrawnCross {
   std::string name;
-  model::BedPoint commanded;
+  BedPoint commanded;
 };
 
 /// The homed step offset of a mural's firmware unless it was changed.
@@ -44,15 +44,15 @@ struct PenCommands {
 
 /// A V-plotter with its controller's settings.
 struct SetPlotter {
-  model::PlotterMachine machine;
+  PlotterMachine machine;
   model::PlotterFirmware firmware = model::PlotterFirmware::fluidnc;
   /// Steps per turn of a motor; 0: not stated.
-  model::PerSide<double> steps_per_mm{};
+  PerSide<double> steps_per_mm{};
   /// The controller's position of the pen when it is switched on, in the machine's frame; for all
   /// but a mural.
-  std::optional<model::BedPoint> home;
+  std::optional<BedPoint> home;
   /// The middle between the pins in the controller's own coordinates.
-  model::BedPoint pins_middle;
+  BedPoint pins_middle;
   double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
   PenCommands pen;
   double feed_mm_per_min = 1500.0;
@@ -75,7 +75,7 @@ inline constexpr double kRulerSigmaMm = 0.5;
 /// The crosses over the machine's drawing area, and 24 measures without values: 16 lengths and the
 /// bows of eight lines at their middles.
 TestDrawing planned_drawing(const SetPlotter& set);
-TestDrawing planned_drawing(const model::PlotterMachine& machine, model::PlotterFirmware firmware);
+TestDrawing planned_drawing(const PlotterMachine& machine, model::PlotterFirmware firmware);
 
 /// The drawing as readings: each cross with what the controller paid out for it. Fails if the
 /// controller cannot hold a cross, with its place among the crosses.

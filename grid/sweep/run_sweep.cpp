@@ -26,7 +26,6 @@ std::uint64_t cells_of(const Share& share, std::uint64_t cells) {
   return first < cells ? (cells - first - 1) / (share.count * share.ranks) + 1 : 0;
 }
 
-using model::BedPoint;
 using synthetic::SyntheticSpec;
 
 // Random streams of the sweep, distinct from the generator's.
@@ -68,8 +67,8 @@ SyntheticSpec session_spec(const SweepSpec& spec, const Levels& at, std::uint64_
 }
 
 // The machine on which the map is used.
-model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64_t repetition,
-                            SyntheticSpec session) {
+Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64_t repetition,
+                     SyntheticSpec session) {
   const UseLevel& use = spec.uses[at[2]];
   if (use.another_of_the_build) session.seed = seed_of(spec, kOtherMachineStream, repetition);
   append_all(session.hidden, use.effects);
@@ -77,18 +76,18 @@ model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64
 }
 
 CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const CompensationMap& map,
-                              const model::Machine& machine) {
+                              const Machine& machine) {
   const MachineLevel& level = spec.machines[at[0]];
-  const model::ReadingModel truth(machine, level.model);
+  const ReadingModel truth(machine, level.model);
   // The marked part of the bed, as in the designs.
   const auto span = [&spec](double bed_mm) {
     if (spec.whole_bed) return bed_mm;
     return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);
   };
-  const model::Bed marked{span(machine.bed.width_mm), span(machine.bed.height_mm)};
+  const Bed marked{span(machine.bed.width_mm), span(machine.bed.height_mm)};
   CellResult result;
   std::vector<Vector2d> chain_mm, tool_mm;
-  for (const model::MarkPoint& mark :
+  for (const MarkPoint& mark :
        raster(area_of(marked), spec.evaluation_columns, spec.evaluation_rows, RasterOf::nodes)) {
     const BedPoint p = model::identity_placement(mark);
     const auto answer = map.lengths(mark);

@@ -18,10 +18,8 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::Mechanism;
 using model::MechanismExtent;
 using model::MechanismVisit;
-using model::ToolPosition;
 using model::effects::Effect;
 using model::effects::EffectParameter;
 using model::effects::EffectSide;
@@ -200,7 +198,7 @@ void add_picture(AtlasPicture picture, const std::vector<double>& sizes, double 
   atlas.pictures.push_back(std::move(picture));
 }
 
-model::AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, double size) {
+AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, double size) {
   std::vector<double> values = nominal_values(effect);
   values[at] = size;
   return model::effects::applied(effect, side, values);
@@ -228,7 +226,7 @@ void add_settings(const Mechanism& mechanism, std::string_view cause,
 
 void add_effects(
     const Mechanism& mechanism, std::string_view cause,
-    const std::function<std::optional<SetAndActual>(const model::AppliedEffect&)>& with_effect,
+    const std::function<std::optional<SetAndActual>(const AppliedEffect&)>& with_effect,
     Atlas& atlas) {
   for (const Effect* effect : mechanism.effects()) {
     if (!cause.empty() && cause != effect->id) continue;
@@ -254,8 +252,7 @@ MechanismPointer with_parameter(const Mechanism& mechanism, Index k, double more
 
 /// The anchors that fit a session with the effect best, with every reading at full weight, as the
 /// machine fits them.
-std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
-                                             const model::AppliedEffect& effect) {
+std::optional<BeltMachine> calibrated(const BeltMachine& machine, const AppliedEffect& effect) {
   BeltsSpec spec;
   spec.columns = spec.rows = 6;
   static_assert(kAtlasPlaces == 6 * 6);
@@ -269,8 +266,8 @@ std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
   return belts::with_anchors(machine, found->state.anchors);
 }
 
-ToolPosition origin_of(const model::BeltMachine& machine) {
-  const model::FramePoint centre = model::to_frame(machine, {0.0, 0.0});
+ToolPosition origin_of(const BeltMachine& machine) {
+  const FramePoint centre = model::to_frame(machine, {0.0, 0.0});
   return {centre.x_mm, centre.y_mm};
 }
 
@@ -288,14 +285,14 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
       atlas);
   add_effects(
       mechanism, cause,
-      [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
+      [&](const AppliedEffect& effect) -> std::optional<SetAndActual> {
         return SetAndActual{set, mechanism.with_effects({effect})};
       },
       atlas);
   return atlas;
 }
 
-Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
+Atlas atlas_of(const BeltMachine& machine, std::string_view cause) {
   if (!machine.anchors_known) throw std::invalid_argument("an atlas of anchors that are not known");
   const auto actual = model::make_belt_mechanism(machine);
   const ToolPosition origin = origin_of(machine);
@@ -315,7 +312,7 @@ Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
       atlas);
   add_effects(
       *actual, cause,
-      [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
+      [&](const AppliedEffect& effect) -> std::optional<SetAndActual> {
         const auto found = calibrated(machine, effect);
         if (!found) return std::nullopt;
         return SetAndActual{model::make_belt_mechanism(*found), actual->with_effects({effect}),

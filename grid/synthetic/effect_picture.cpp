@@ -6,8 +6,6 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::BedPoint;
-using model::Machine;
 using model::Visit;
 
 constexpr int kColumns = 7;
@@ -16,8 +14,7 @@ constexpr int kRows = 4;
 constexpr std::array<std::array<int, 2>, 3> kGrids = {{{7, 4}, {10, 6}, {20, 10}}};
 constexpr double kSquareMm = 100.0;
 
-ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& applied,
-                        BedPoint centre) {
+ShiftedSquare square_at(const Machine& machine, const AppliedEffect& applied, BedPoint centre) {
   ShiftedSquare square;
   square.centre = centre;
   constexpr double kHalfMm = 0.5 * kSquareMm;
@@ -45,7 +42,7 @@ EffectPicture picture_effect(const Machine& machine, const model::effects::Effec
                              model::effects::EffectSide side, const std::vector<double>& values,
                              const StatedNoise& noise) {
   EffectPicture picture;
-  const model::AppliedEffect applied = model::effects::applied(effect, side, values);
+  const AppliedEffect applied = model::effects::applied(effect, side, values);
   picture.applied = applied;
   picture.noise = noise;
   picture.columns = kColumns;

@@ -12,11 +12,6 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::BedPoint;
-using model::ChainLengths;
-using model::Machine;
-using model::MarkPoint;
-using model::Setting;
 using model::Visit;
 
 // The random streams. A new purpose gets a new number; existing numbers never change, so that a
@@ -92,7 +87,7 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
   std::vector<SettingOffset> offsets = spec.offsets;
   if (spec.draw_settings) {
     Random random(spec.seed, kSettings);
-    for (const Setting setting : model::kMachineSettings) {
+    for (const Setting setting : kMachineSettings) {
       offsets.push_back({setting, model::stated_sigma(stated, setting) * random.normal()});
     }
   }
@@ -109,7 +104,7 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
 // The points at which the machine's effects miscount links.
 std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Visit>& visits) {
   std::vector<std::size_t> points;
-  for (const model::AppliedEffect& effect : machine.effects) {
+  for (const AppliedEffect& effect : machine.effects) {
     const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
     if (known == nullptr || !known->at_one_visit) continue;
     const auto value = [&](const model::effects::EffectParameter& parameter) {
@@ -176,7 +171,7 @@ std::function<void(std::size_t)> counting(const Progress& progress, std::size_t 
 
 }  // namespace
 
-void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
+void offset_setting(Machine& machine, SheetPlacement& sheet, const SettingOffset& offset) {
   switch (offset.setting) {
     case Setting::sheet_x_mm:
       sheet.x_mm += offset.offset;
@@ -232,7 +227,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
     answer.places.push_back(visits.back().position);
   }
 
-  const model::ReadingModel reading_model(answer.machine, spec.model);
+  const ReadingModel reading_model(answer.machine, spec.model);
   const auto lengths = model::readings(reading_model, visits, counting(progress, visits.size()));
   if (!lengths) {
     const BedPoint place = visits[lengths.error().place].position;
@@ -240,7 +235,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   }
   answer.lengths = *lengths;
   for (std::size_t i = 0; i < visits.size(); ++i) {
-    for (const model::Side side : model::kSides)
+    for (const Side side : kSides)
       answer.lengths[i][side] += spec.unmodelled_mm * unmodelled(visits[i].position)[side];
   }
   const model::MarkFrame mark_frame(answer.machine);
@@ -258,13 +253,13 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   return session;
 }
 
-PlacesRead read_places(const Machine& stated, const std::vector<model::AppliedEffect>& hidden,
+PlacesRead read_places(const Machine& stated, const std::vector<AppliedEffect>& hidden,
                        const std::vector<Visit>& visits, model::Model model,
                        const Progress& progress) {
   PlacesRead result;
   Machine machine = stated;
   append_all(machine.effects, hidden);
-  const model::ReadingModel reading_model(machine, model);
+  const ReadingModel reading_model(machine, model);
   const model::MarkFrame mark_frame(machine);
   std::vector<Visit> reached;
   for (std::size_t i = 0; i < visits.size(); ++i) {

@@ -23,11 +23,11 @@ constexpr std::uint64_t kBadStream = 14;
 
 }  // namespace
 
-model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec) {
+Machine hidden_truth(const Machine& stated, const HolesSpec& spec) {
   Random random(spec.seed, kSettingStream);
-  model::Machine truth = stated;
+  Machine truth = stated;
   if (spec.draw_settings) {
-    for (const model::Setting setting : model::kMachineSettings) {
+    for (const Setting setting : kMachineSettings) {
       truth = model::with_setting(std::move(truth), setting,
                                   model::stated_value(stated, setting) +
                                       model::stated_sigma(stated, setting) * random.normal());
@@ -43,16 +43,16 @@ model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec)
   return truth;
 }
 
-tl::expected<SyntheticHoles, CutFailure> simulate_holes(
-    const MeasuredHoles& design, const HolesSpec& spec,
-    const std::optional<model::Machine>& truth) {
+tl::expected<SyntheticHoles, CutFailure> simulate_holes(const MeasuredHoles& design,
+                                                        const HolesSpec& spec,
+                                                        const std::optional<Machine>& truth) {
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
   if (!distances) {
     return failed(CutReason::no_lengths, distances.error());
   }
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
-  const model::ReadingModel model(made.truth);
+  const ReadingModel model(made.truth);
   Random hole_noise(spec.seed, kHoleStream);
   for (std::size_t i = 0; i < design.holes.size(); ++i) {
     const auto reading = model.find(distances->places()[i].lengths, design.holes[i].commanded);
@@ -62,7 +62,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
                                 design.holes[i].name, design.holes[i].commanded.x_mm,
                                 design.holes[i].commanded.y_mm, reading.error().sentence()));
     }
-    const model::MarkPoint at = spec.sheet.to_mark(reading->pose.position);
+    const MarkPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();
     const double dy = design.hole_sigma_mm * hole_noise.normal();
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});

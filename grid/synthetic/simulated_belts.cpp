@@ -13,19 +13,16 @@
 
 namespace chaintrue::grid::synthetic {
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 /// Streams of the seed: draws of one do not depend on the others.
 enum BeltStream : std::uint64_t { kNoiseStream = 1, kBadReadingStream = 2 };
 
-std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const BeltsSpec& spec) {
+std::vector<BedPoint> commands_of(const BeltMachine& stated, const BeltsSpec& spec) {
   const auto& a = stated.anchors;
   const double width = spec.width_share * 0.5 * (a.br.x_mm + a.tr.x_mm - a.tl.x_mm);
   const double height = spec.height_share * 0.5 * (a.tl.y_mm + a.tr.y_mm);
-  std::vector<model::BedPoint> commands;
+  std::vector<BedPoint> commands;
   for (int row = 0; row < spec.rows; ++row) {
     for (int i = 0; i < spec.columns; ++i) {
       const int column = row % 2 == 0 ? i : spec.columns - 1 - i;
@@ -37,9 +34,8 @@ std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const
 }
 
 /// The tool's position when the upper belts have the lengths paid out for a command.
-tl::expected<model::FramePoint, model::BeltFailure> place_of(const model::BeltMachine& stated,
-                                                             const model::BeltMachine& truth,
-                                                             model::BedPoint command) {
+tl::expected<FramePoint, model::BeltFailure> place_of(const BeltMachine& stated,
+                                                      const BeltMachine& truth, BedPoint command) {
   const auto paid_out = model::lengths_at(stated, model::to_frame(stated, command));
   if (!paid_out) return tl::unexpected(paid_out.error());
   return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
@@ -53,12 +49,11 @@ std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {
 }
 
 /// All places once, numbered on. \returns the place that cannot be reached.
-std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
-                                         const model::BeltMachine& truth, const BeltsSpec& spec,
-                                         const std::optional<BeltPull>& pull, Random& noise,
-                                         MeasuredBelts& belts) {
+std::optional<BeltsUnreachable> add_pass(const BeltMachine& stated, const BeltMachine& truth,
+                                         const BeltsSpec& spec, const std::optional<BeltPull>& pull,
+                                         Random& noise, MeasuredBelts& belts) {
   const auto effects = model::effects::resolve(model::belts::belt_effects(), spec.hidden);
-  const std::vector<model::BedPoint> commands = commands_of(stated, spec);
+  const std::vector<BedPoint> commands = commands_of(stated, spec);
   const double over_least = pull ? pull->value / *min_element(spec.pulls) : 1.0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const auto place = place_of(stated, truth, commands[i]);
@@ -106,8 +101,8 @@ void check(const BeltsSpec& spec) {
 
 }  // namespace
 
-tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const model::BeltMachine& stated,
-                                                             const model::BeltMachine& truth,
+tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const BeltMachine& stated,
+                                                             const BeltMachine& truth,
                                                              const BeltsSpec& spec) {
   check(spec);
   MeasuredBelts belts;

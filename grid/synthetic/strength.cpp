@@ -17,15 +17,12 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::AppliedEffect;
-using model::Machine;
 using model::Visit;
 
-std::vector<model::ChainLengths> lengths_of(const Machine& machine,
-                                            const std::vector<Visit>& visits) {
-  const auto lengths = model::readings(model::ReadingModel(machine), visits);
+std::vector<ChainLengths> lengths_of(const Machine& machine, const std::vector<Visit>& visits) {
+  const auto lengths = model::readings(ReadingModel(machine), visits);
   if (!lengths) {
-    const model::BedPoint p = visits[lengths.error().place].position;
+    const BedPoint p = visits[lengths.error().place].position;
     throw precondition("signature: ({}, {}) mm cannot be reached: {}", p.x_mm, p.y_mm,
                        lengths.error().sentence());
   }
@@ -58,20 +55,20 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
                            const std::vector<Visit>& visits) {
   Machine true_machine = stated;
   append_all(true_machine.effects, effects);
-  const model::ReadingModel plain(stated);
+  const ReadingModel plain(stated);
   const model::MarkFrame mark_frame(true_machine);
   const model::MarkFrame stated_mark_frame(stated);
-  const std::vector<model::ChainLengths> before = lengths_of(stated, visits);
-  const std::vector<model::ChainLengths> after = lengths_of(true_machine, visits);
+  const std::vector<ChainLengths> before = lengths_of(stated, visits);
+  const std::vector<ChainLengths> after = lengths_of(true_machine, visits);
   SessionSignature result;
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const auto reading = plain.at(visits[i].position);
     if (!reading) {
       throw precondition("signature: visit {}: {}", i, reading.error().sentence());
     }
-    const model::MarkPoint place = model::identity_placement(visits[i].position);
-    const model::MarkPoint written = mark_frame.written(place);
-    const model::MarkPoint usual = stated_mark_frame.written(place);
+    const MarkPoint place = model::identity_placement(visits[i].position);
+    const MarkPoint written = mark_frame.written(place);
+    const MarkPoint usual = stated_mark_frame.written(place);
     const Vector2d moved = difference(written, usual);
     const Vector2d gained = difference(after[i], before[i]);
     result.length_by_xy.push_back(reading->position_jacobian);
@@ -80,7 +77,7 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
   return result;
 }
 
-StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Visit> visits,
+StrengthTable::StrengthTable(const Machine& stated, std::vector<model::Visit> visits,
                              const StatedNoise& noise)
     : stated_(stated), visits_(std::move(visits)) {
   if (!(noise.length_mm > 0.0 && noise.position_mm >= 0.0)) {
@@ -88,9 +85,9 @@ StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Vi
                        noise.position_mm);
   }
   const auto count = std::ssize(visits_);
-  const auto settings = std::ssize(model::kMachineSettings);
+  const auto settings = std::ssize(kMachineSettings);
   MatrixXd by_setting = MatrixXd::Zero(2 * count + settings, settings);
-  const model::ReadingModel model(stated);
+  const ReadingModel model(stated);
   for (Index i = 0; i < count; ++i) {
     const auto reading = model.at(visits_[as_size(i)].position);
     if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
@@ -101,13 +98,12 @@ StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Vi
     whitening_.emplace_back(estimation::unit_whitening(covariance));
     for (Index k = 0; k < settings; ++k) {
       by_setting.block<2, 1>(2 * i, k) =
-          whitening_.back() * model.sensitivity(*reading, model::kMachineSettings[as_size(k)]);
+          whitening_.back() * model.sensitivity(*reading, kMachineSettings[as_size(k)]);
     }
   }
   for (Index k = 0; k < settings; ++k) {
     by_setting(2 * count + k, k) =
-        1.0 /
-        std::max(kKnownSigma, model::stated_sigma(stated, model::kMachineSettings[as_size(k)]));
+        1.0 / std::max(kKnownSigma, model::stated_sigma(stated, kMachineSettings[as_size(k)]));
   }
   settings_basis_ = linear::orthonormal_columns(by_setting);
   for (const Effect* effect : model::effects::effects_of(stated_)) {
@@ -155,8 +151,7 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
   return result;
 }
 
-std::vector<Vector2d> StrengthTable::calibrated_shift_mm(
-    const model::AppliedEffect& applied) const {
+std::vector<Vector2d> StrengthTable::calibrated_shift_mm(const AppliedEffect& applied) const {
   const VectorXd left = entry(applied).left;
   std::vector<Vector2d> shift;
   for (std::size_t i = 0; i < visits_.size(); ++i) {
@@ -198,7 +193,7 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
 void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
   bool usual = true;
   for (const auto& values : place_choices(effect, visits_.size())) {
-    model::Machine with = stated_;
+    Machine with = stated_;
     with.effects.push_back(model::effects::applied(effect, side, values));
     if (!model::effects::problems_of_effects(with).empty()) return;  // cannot act on such a machine
     entries_.push_back(entry(with.effects.back()));
@@ -209,7 +204,7 @@ void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
   }
 }
 
-StrengthTable::Entry StrengthTable::entry(const model::AppliedEffect& applied) const {
+StrengthTable::Entry StrengthTable::entry(const AppliedEffect& applied) const {
   Entry result{};
   const std::vector<Vector2d> residual_mm = signature(stated_, {applied}, visits_).residual_mm;
   VectorXd g = VectorXd::Zero(settings_basis_.rows());
