@@ -2,7 +2,6 @@
 #include "grid/statistics.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
 

@@ -66,7 +66,7 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
   const BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
   const auto readings = readings_of(belts, fit.counting, fit.residual_sigma_mm);
   const observation::View view(mechanism_at(belts, fit.state));
-  std::vector<bool> is_placed(belts.points.size(), false);
+  Flags is_placed(belts.points.size(), false);
   fit.state.places.resize(belts.points.size());
   for (const auto& block : readings.blocks()) {
     const auto line = readings.block_line(view, block, false);

@@ -91,8 +91,7 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const An
   return all;
 }
 
-MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
-                          const std::vector<bool>& counting) {
+MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise, const Flags& counting) {
   MatrixXd covariance = noise.factor * noise.factor * rows.noise_mm2 + rows.shared_mm2;
   if (noise.size_mm > 0.0) {
     const MatrixXd kernel = displacement_kernel(rows.marks, rows.marks, noise.reach_mm);

@@ -74,6 +74,5 @@ struct TapedNoise {
   double reach_mm = 1.0;
 };
 /// (1), with rejected distances given no weight.
-MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
-                          const std::vector<bool>& counting);
+MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise, const Flags& counting);
 }  // namespace chaintrue::grid::belts

@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
-#include "grid/belts/belt_holes.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
@@ -35,7 +32,7 @@ struct TapedState {
   FrameState frame;
   TapedRows rows;
   TapedNoise noise;
-  std::vector<bool> counting;
+  Flags counting;
 };
 
 /// (2) and (3) about a state.
@@ -43,7 +40,7 @@ struct TapedMarginal {
   VectorXd residual_mm;  ///< r_b
   MatrixXd inverse;      ///< V^-1
   double log_likelihood = 0.0;
-  std::vector<bool> counting;
+  Flags counting;
 
   double left_out_mm(Index k) const { return (inverse.row(k) * residual_mm)(0) / inverse(k, k); }
   /// The tape's variance plus that of the prediction, without what was added for rejection.

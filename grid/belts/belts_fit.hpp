@@ -36,6 +36,7 @@
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
+#include "grid/containers.hpp"
 #include "interp/eigen.hpp"
 #include "model/failure.hpp"
 
@@ -105,14 +106,14 @@ struct BeltsFit {
   BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
   std::array<AnchorCoordinate, 5> coordinates;
   Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
-  double residual_sigma_mm = 0.0;       ///< (1)
-  int checks = 0;                       ///< the denominator of (1)
-  double rms_mm = 0.0;                  ///< of all readings, as in the machine's message
-  PerBelt<double> rms_of_mm;            ///< of those that count
-  std::vector<FittedPlace> places;      ///< of each point
-  std::vector<BadBeltReading> bad;      ///< rejected, the worst first
-  std::vector<std::size_t> bad_points;  ///< where fewer than three readings agree
-  std::optional<BeltScale> scale;       ///< empty: not known
+  double residual_sigma_mm = 0.0;   ///< (1)
+  int checks = 0;                   ///< the denominator of (1)
+  double rms_mm = 0.0;              ///< of all readings, as in the machine's message
+  PerBelt<double> rms_of_mm;        ///< of those that count
+  std::vector<FittedPlace> places;  ///< of each point
+  std::vector<BadBeltReading> bad;  ///< rejected, the worst first
+  Indices bad_points;               ///< where fewer than three readings agree
+  std::optional<BeltScale> scale;   ///< empty: not known
   BeltPrediction one_left_out;
   std::optional<BeltPrediction>
       half_left_out;  ///< either half by the other; with ten places and more

@@ -5,12 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/belts/anchor_estimate.hpp"
-#include "grid/containers.hpp"
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -256,7 +253,7 @@ BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnosti
 }
 
 /// Points in the order of their visits, of the file where that is not known.
-std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
+Indices in_order(const MeasuredBelts& belts) {
   auto order = numbers_below(belts.points.size());
   stable_sort(order, [&](std::size_t a, std::size_t b) {
     return belts.points[a].order.value_or(static_cast<int>(a)) <
@@ -284,7 +281,7 @@ BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
 std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, const AnchorFit& frame,
                                                 const Refit& refit) {
   if (belts.points.size() < 2 * kFewestBeltPoints) return std::nullopt;
-  const std::vector<std::size_t> order = in_order(belts);
+  const Indices order = in_order(belts);
   std::vector<double> residual_mm;
   for (const std::size_t half : {0UL, 1UL}) {
     AnchorFit from = frame;

@@ -5,8 +5,6 @@
 
 #include <set>
 
-#include "grid/containers.hpp"
-
 namespace chaintrue::grid {
 
 std::vector<Belt> pulled_after(model::Orientation orientation, BedPoint from, BedPoint to,

@@ -17,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::grid {
@@ -107,7 +108,7 @@ std::string words_of(const BeltEnd& end);
 // file's numbers.
 
 /// Each point's index in the file, from 0; empty: none was left out.
-using PointIndices = std::vector<std::size_t>;
+using PointIndices = Indices;
 
 inline std::size_t index_in_file(const PointIndices& indices, std::size_t point) {
   return point < indices.size() ? indices[point] : point;

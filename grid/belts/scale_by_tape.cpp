@@ -18,8 +18,8 @@ constexpr int kDirections = 8;
 constexpr double kWholeMm = 10.0;
 
 /// The outermost points of the file in each direction, each once.
-std::vector<std::size_t> outermost(const BeltsFit& fit) {
-  std::vector<std::size_t> points;
+Indices outermost(const BeltsFit& fit) {
+  Indices points;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
     const auto along = [&](const FittedPlace& place) {

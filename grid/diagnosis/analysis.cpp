@@ -9,7 +9,6 @@
 
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/statistics.hpp"
-#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

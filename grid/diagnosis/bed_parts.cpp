@@ -9,7 +9,6 @@
 #include <map>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/findings.hpp"

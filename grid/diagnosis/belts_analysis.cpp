@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/failed.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"

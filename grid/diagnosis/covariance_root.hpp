@@ -11,8 +11,6 @@
 ///   const double square = noise.half_solve(e).squaredNorm();   // e' V^-1 e
 #pragma once
 
-#include <vector>
-
 #include "grid/containers.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"

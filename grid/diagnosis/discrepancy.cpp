@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "interp/eigen.hpp"
-
 namespace chaintrue::grid::diagnosis {
 namespace {
 

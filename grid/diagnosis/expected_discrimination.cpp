@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"

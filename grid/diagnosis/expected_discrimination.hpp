@@ -27,7 +27,6 @@
 /// grid/diagnosis.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/statistics.hpp"

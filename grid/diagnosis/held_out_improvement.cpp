@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/spatial_blocks.hpp"

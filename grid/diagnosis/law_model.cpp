@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/laws.hpp"
 #include "grid/plane_vectors.hpp"
-#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

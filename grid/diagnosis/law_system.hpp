@@ -9,7 +9,6 @@
 
 #include <compare>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"

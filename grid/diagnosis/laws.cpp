@@ -12,7 +12,6 @@
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
-#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

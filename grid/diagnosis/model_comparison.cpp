@@ -8,8 +8,6 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
-#include "grid/statistics.hpp"
-#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

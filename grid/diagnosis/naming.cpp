@@ -2,12 +2,10 @@
 #include "grid/diagnosis/naming.hpp"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/failed.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/other_places.hpp"
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {

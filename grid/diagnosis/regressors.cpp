@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "grid/diagnosis/law_curves.hpp"
-#include "grid/diagnosis/regressor_system.hpp"
 #include "grid/plane_vectors.hpp"
 #include "model/effects/catalogue.hpp"
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/parallel.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "grid/containers.hpp"
 #include "grid/estimation/estimator.hpp"
 #include "model/calibration/setting.hpp"
 

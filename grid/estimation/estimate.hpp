@@ -45,6 +45,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
@@ -90,7 +91,7 @@ enum class SurfaceUse {
 };
 
 /// Units that are left out together.
-using UnitGroup = std::vector<std::size_t>;
+using UnitGroup = Indices;
 
 /// Limits for rejecting single readings of units whose readings may be outliers one by one
 /// (reading_shifts.hpp). The worst is rejected first; those that fit once a worse one is gone count

@@ -32,8 +32,8 @@ struct PlacesOnSheet {
   std::vector<MarkPoint> marks;
   MatrixXd by_unknown;  ///< G
   VectorXd moved;       ///< g
-  std::vector<Index> free_columns;
-  std::vector<Index> free_rows;  ///< of M, in the same order
+  ColumnSet free_columns;
+  Rows free_rows;  ///< of M, in the same order
 
   /// M
   MatrixXd whole_motion() const {
@@ -65,9 +65,9 @@ struct PlacesOnSheet {
 
 /// Free directions of all sheets.
 struct FreeDirections {
-  std::vector<Index> columns;  ///< x_f
-  VectorXd constant;           ///< a
-  MatrixXd following;          ///< F by all unknowns, nothing by x_f
+  ColumnSet columns;   ///< x_f
+  VectorXd constant;   ///< a
+  MatrixXd following;  ///< F by all unknowns, nothing by x_f
 
   /// Adds (1) of one observation. \returns its marks with the free directions corrected and all else
   /// unchanged.

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/estimation/joint_problem.hpp"
@@ -44,7 +43,7 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
   precision.head(unknowns.of_set) = set.stated_sigma.cwiseAbs2().cwiseInverse();
   precision.segment(unknowns.of_set, unknowns.scales)
       .setConstant(1.0 / (kScaleSigma * kScaleSigma));
-  std::vector<Index> of_noise;
+  Rows of_noise;
   for (const ObservationPart& part : set.parts) {
     const auto& columns = part.nuisance_columns;
     of_noise.insert(of_noise.end(), columns.end() - part.observation->nuisances_of_noise(),

@@ -137,8 +137,8 @@ class JointProblem {
   const MatrixXd& sure_design() const { return sure_design_; }
   const VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
-  const std::vector<Index>& rejected(std::size_t unit) const {
-    static const std::vector<Index> kNone;
+  const Rows& rejected(std::size_t unit) const {
+    static const Rows kNone;
     return rejected_.empty() ? kNone : rejected_.at(unit);
   }
   const RejectedReadings& rejected() const { return rejected_; }
@@ -240,9 +240,9 @@ class JointProblem {
     MatrixXd design = MatrixXd::Zero(system.response.size(), unknowns_.total());
     VectorXd response = system.response;
     design.leftCols(unknowns_.of_set) = system.by_setting;
-    std::vector<Index> rows;
-    std::vector<Index> certain_rows;
-    const auto take = [&](const SystemUnit& unit, std::vector<Index>& list) {
+    Rows rows;
+    Rows certain_rows;
+    const auto take = [&](const SystemUnit& unit, Rows& list) {
       add_chain_columns(system, unit, state, design, response);
       for (Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
     };

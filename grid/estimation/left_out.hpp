@@ -84,7 +84,7 @@ class LeftOut {
   /// prepare_all().
   std::vector<VectorXd> residuals(const UnitGroup& group) const {
     if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
-    std::vector<Index> rows;
+    Rows rows;
     std::vector<double> roots;
     for (const std::size_t unit : group) {
       const double weight = weights_[as_index(unit)];
@@ -224,8 +224,8 @@ inline std::vector<Shift> shifts(const JointProblem& problem, const interp::Pena
   const FittedRows rows{problem.design(), residual, fit, problem.dof(fit)};
   for (std::size_t u = 0; u < problem.units().size(); ++u) {
     const SystemUnit& unit = problem.units()[u];
-    const std::vector<Index>& rejected = problem.rejected(u);
-    std::vector<Index> readings = rejected;
+    const Rows& rejected = problem.rejected(u);
+    Rows readings = rejected;
     if (!of_rejected) {
       readings = numbers_below<Index>(unit.by_reading.cols());
       std::erase_if(readings, [&](Index i) { return contains(rejected, i); });

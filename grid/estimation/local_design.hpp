@@ -38,7 +38,7 @@ class LocalDesign {
     const Index plain = unknowns.total() - 2 * penalised;
     const auto splines = [&](Side side) { return plain + row_of(side) * basis.size(); };
     to_unknowns_ = MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
-    std::vector<Index> columns;
+    ColumnSet columns;
     for (Index k = 0; k < unknowns.total(); ++k) {
       if (k >= first_bend && k < first_bend + 2 * penalised) continue;
       to_unknowns_(std::ssize(columns), k) = 1.0;

@@ -49,11 +49,11 @@ struct ObservationPart {
   Index first_row = 0;
   std::size_t first_place = 0;
   std::size_t first_unit = 0;
-  std::optional<std::size_t> sheet;     ///< which of the set's; none: the bed's frame
-  std::vector<Index> nuisance_columns;  ///< among all columns
+  std::optional<std::size_t> sheet;  ///< which of the set's; none: the bed's frame
+  ColumnSet nuisance_columns;        ///< among all columns
   /// Columns of the zeros of this session minus the machine's; empty for the session that defines
   /// the machine's.
-  std::vector<Index> zero_columns{};
+  ColumnSet zero_columns{};
   bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
@@ -143,8 +143,8 @@ struct ObservationSet {
   }
 
   /// Columns of an observation's own settings, as observation::columns_of() has them.
-  std::vector<Index> columns_of(const ObservationPart& part) const {
-    std::vector<Index> columns;
+  ColumnSet columns_of(const ObservationPart& part) const {
+    ColumnSet columns;
     for (Index k = 0; k < parameters(); ++k) columns.push_back(k);
     // Follow-up readings may be in the frame of a sheet that they do not depend on.
     const bool has_sheet = part.sheet && part.observation->sheet();

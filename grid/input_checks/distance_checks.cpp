@@ -137,8 +137,7 @@ void add_axes(HoleTransformations& list) {
 }
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
-void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross,
-               HoleTransformations& list) {
+void add_holes(const MeasuredHoles& set, const Flags& is_gross, HoleTransformations& list) {
   for (std::size_t h = 0; h < set.holes.size(); ++h) {
     std::size_t of_it = 0;
     for (std::size_t i = 0; i < set.distances.size(); ++i) {
@@ -280,7 +279,7 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   const VectorXd sigma_mm = distance_sigmas(set);
   const RobustTrend trend = robust_trend(written_rows, sigma_mm);
   const DistanceRows rows{set, trend};
-  std::vector<bool> is_gross;
+  Flags is_gross;
   for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
   const double median_mm = trend.median_residual_mm();
   const bool is_odd =

@@ -14,7 +14,6 @@
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_accounts.hpp"
 #include "grid/input_checks/whole_checks.hpp"
-#include "grid/observation/measured_grid.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
@@ -89,9 +88,9 @@ constexpr std::size_t kMostLookedAt = 200;
 constexpr double kRepeatMm = 30.0;
 
 /// A file may have ten thousand points.
-std::vector<std::size_t> looked_at(std::size_t count) {
+Indices looked_at(std::size_t count) {
   const std::size_t few = std::min(count, kMostLookedAt);
-  std::vector<std::size_t> rows;
+  Indices rows;
   for (std::size_t i = 0; i < few; ++i) rows.push_back(i * count / few);
   return rows;
 }
@@ -117,7 +116,7 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
 std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const MeasuredGrid& grid,
                                         const PlacedPoints& all, const RobustTrend& trend,
                                         Written written) {
-  const std::vector<std::size_t> looked = looked_at(grid.points.size());
+  const Indices looked = looked_at(grid.points.size());
   PlacedPoints few;
   for (const std::size_t row : looked) {
     few.points.push_back(all.points[row]);
@@ -238,8 +237,7 @@ struct PointRows {
     return best;
   }
   /// Another row with a gross error such that the readings of the two fit each other's marks.
-  std::optional<std::size_t> exchanged_with(std::size_t row,
-                                            const std::vector<std::size_t>& gross) const {
+  std::optional<std::size_t> exchanged_with(std::size_t row, const Indices& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {
       return placed.places[reading] &&
              accounts.off(trend, grid.points[mark].mark, *placed.places[reading]).norm() <
@@ -278,7 +276,7 @@ struct PointRows {
 
   std::vector<RowFinding> findings() const {
     constexpr std::size_t kMostNamed = 200;
-    std::vector<std::size_t> gross;
+    Indices gross;
     for (std::size_t row = 0; row < grid.points.size(); ++row) {
       if (is_gross(row) && gross.size() < kMostNamed) gross.push_back(row);
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/input_checks/transformation_search.hpp"
-#include "grid/containers.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace chaintrue::grid::input_checks {
 namespace {

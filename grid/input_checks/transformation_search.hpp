@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "interp/eigen.hpp"
@@ -28,7 +29,7 @@
 namespace chaintrue::grid::input_checks {
 
 /// The affected rows of a file.
-using RowSet = std::vector<bool>;
+using RowSet = Flags;
 
 struct Transformation {
   ProblemKind kind = ProblemKind::axes;

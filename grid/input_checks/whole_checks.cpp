@@ -260,7 +260,7 @@ std::string_view readings_of(const PlacedPoints& written) {
 /// Assigns every mark to its nearest place, if this uses each place once.
 std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   std::vector<Place> nearest;
-  std::vector<bool> taken(written.places.size(), false);
+  Flags taken(written.places.size(), false);
   for (const MeasuredPoint& point : written.points) {
     std::optional<std::size_t> best;
     double least = 0.0;

@@ -10,8 +10,6 @@
 
 #include "grid/containers.hpp"
 #include "grid/map/check_readings.hpp"
-#include "grid/statistics.hpp"
-#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
@@ -27,7 +25,7 @@ struct Proposal {
   MatrixXd by_q;   ///< X
   VectorXd sigma;  ///< of q
   /// Which of the hypothesis' quantities each q is.
-  std::vector<std::size_t> quantity_of_q;
+  Indices quantity_of_q;
   std::size_t unit = 0;  ///< of a bad point
 };
 

@@ -352,7 +352,7 @@ class Gathered {
       readings_.names.push_back(words_of(set, distance) + of);
       add_unit(readings_.names.back(),
                MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
-      std::vector<std::size_t> ends = {distance.from};
+      Indices ends = {distance.from};
       if (!distance.edge) ends.push_back(distance.to);
       for (const std::size_t hole : ends) {
         const auto column = 2 * as_index(hole);
@@ -386,8 +386,8 @@ class Gathered {
 
 void add_errors(const Eigen::SparseMatrix<double>& errors, ReadingCovariance& covariance) {
   using At = Eigen::SparseMatrix<double>::InnerIterator;
-  std::vector<std::size_t> unit_of;  // of each row
-  std::vector<Index> first_row;
+  Indices unit_of;  // of each row
+  Rows first_row;
   for (const MatrixXd& own : covariance.own) {
     first_row.push_back(std::ssize(unit_of));
     unit_of.resize(unit_of.size() + as_size(own.rows()), first_row.size() - 1);

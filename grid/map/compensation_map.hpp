@@ -17,7 +17,6 @@
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
-#include <variant>
 #include <vector>
 
 #include "grid/map/map_field.hpp"

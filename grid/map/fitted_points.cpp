@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -13,7 +12,6 @@
 #include "grid/map/map_accuracy.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
-#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {

@@ -2,7 +2,6 @@
 #include "grid/map/lattice_residual.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "grid/containers.hpp"

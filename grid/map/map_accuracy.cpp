@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "grid/containers.hpp"

@@ -6,7 +6,6 @@
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/raster.hpp"
-#include "interp/tensor_spline.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {

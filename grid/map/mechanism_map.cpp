@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
-#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"

@@ -61,13 +61,13 @@ void BeltLengthReadings::join_places() {
     return readings_[place].known || readings_[place].counted() >= 2;
   };
   constexpr auto none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> number_of(readings_.size(), none);
+  Indices number_of(readings_.size(), none);
   for (std::size_t i = 0; i < readings_.size() && !distances_.empty(); ++i) {
     if (number_of.size() <= readings_[i].index) number_of.resize(readings_[i].index + 1, none);
     number_of[readings_[i].index] = i;
   }
   std::vector<std::optional<std::size_t>> block_place;  // of each distance; none: of no place
-  std::vector<bool> is_left_out;
+  Flags is_left_out;
   for (TapedDistance& distance : distances_) {
     std::optional<std::size_t> at;
     bool left_out = false;
@@ -87,7 +87,7 @@ void BeltLengthReadings::join_places() {
     is_left_out.push_back(left_out);
   }
   block_of_.assign(readings_.size(), none);
-  std::vector<std::size_t> block_of_root(readings_.size(), none);
+  Indices block_of_root(readings_.size(), none);
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     if (!is_found(i)) continue;
     std::size_t& block = block_of_root[root_of(i)];

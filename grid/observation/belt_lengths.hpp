@@ -48,12 +48,12 @@ struct LengthsAtPlace {
   std::size_t index = 0;  ///< into the file's points
   std::string name;       ///< "3"
   VectorXd lengths_mm;
-  std::vector<bool> counting;  ///< of each length; empty: all
+  Flags counting;  ///< of each length; empty: all
   model::MechanismVisit visit;
   /// Where the tool was, in the mechanism's frame; empty: unknown.
   std::optional<ToolPosition> known = std::nullopt;
   /// Counting lengths that are not used to find the position; empty: none.
-  std::vector<bool> rejected = {};
+  Flags rejected = {};
   /// For an unknown position: q to linearise about. The residuals are those there; to first order
   /// they do not depend on a nearby q. Empty: q of (1).
   std::optional<ToolPosition> about = std::nullopt;
@@ -92,8 +92,8 @@ class BeltLengthReadings final : public Observation {
   /// Places that are found together (indices into places()) and the distances that join them; a
   /// single place has no distances.
   struct Block {
-    std::vector<std::size_t> places;
-    std::vector<std::size_t> distances;
+    Indices places;
+    Indices distances;
   };
 
   const Kind& kind() const override { return belt_lengths; }
@@ -139,9 +139,9 @@ class BeltLengthReadings final : public Observation {
   std::vector<LengthsAtPlace> readings_;
   std::vector<TapedDistance> distances_;
   std::vector<Block> blocks_;
-  std::vector<std::size_t> first_unit_;  ///< of each block
-  std::vector<std::size_t> block_of_;    ///< of each place; blocks_.size(): of none
-  std::vector<std::size_t> place_of_unit_;
+  Indices first_unit_;  ///< of each block
+  Indices block_of_;    ///< of each place; blocks_.size(): of none
+  Indices place_of_unit_;
   BeltNoise noise_;
 };
 

@@ -13,9 +13,9 @@ namespace chaintrue::grid::observation {
 namespace {
 
 /// Lengths that the position is found from; empty: all.
-std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
+Flags deciding_lengths(const LengthsAtPlace& place) {
   if (place.rejected.empty()) return place.counting;
-  std::vector<bool> deciding;
+  Flags deciding;
   for (Index i = 0; i < place.lengths_mm.size(); ++i)
     deciding.push_back(place.counts(i) && !place.rejected.at(as_size(i)));
   return deciding;
@@ -110,7 +110,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
       continue;
     }
     // Starts where all lengths together put it, or at the middle if they do not meet.
-    const std::vector<bool> deciding = deciding_lengths(own);
+    const Flags deciding = deciding_lengths(own);
     auto position = view.mechanism->locate(own.lengths_mm, own.visit);
     if (!position || !deciding.empty()) {
       position = model::locate_by_newton(*view.mechanism, own.lengths_mm, own.visit,
@@ -172,7 +172,7 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const LengthsAtPlace* first = block.places.empty() ? nullptr : &readings_[block.places.front()];
   const bool is_known = first != nullptr && first->known;
   const bool is_alone = block.places.size() == 1 && block.distances.empty();
-  std::vector<Index> rows;
+  Rows rows;
   for (Index i = 0; i < line->weight.size(); ++i) {
     if (line->weight[i] > 0.0) rows.push_back(i);
   }

@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "model/controllers/payout.hpp"
 
@@ -59,10 +57,10 @@ observation::ChainLengthReadings chain_length_readings(
                                                           noise_dof, prior);
 }
 
-std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points) {
-  std::vector<std::vector<std::size_t>> groups;
+std::vector<Indices> repeat_groups(const std::vector<LengthPoint>& points) {
+  std::vector<Indices> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto near = [&](const std::vector<std::size_t>& group) {
+    const auto near = [&](const Indices& group) {
       const MarkPoint first = points[group.front()].mark;
       return distance_mm(first, points[i].mark) <= kRepeatDistanceMm;
     };

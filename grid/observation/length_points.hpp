@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/measured_grid.hpp"
 
@@ -38,7 +39,7 @@ observation::ChainLengthReadings chain_length_readings(
 inline constexpr double kRepeatDistanceMm = 25.0;
 
 /// Groups of two or more points at one place, as positions in `points`.
-std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points);
+std::vector<Indices> repeat_groups(const std::vector<LengthPoint>& points);
 
 /// Readings that replace a part of the stated machine: sled_mass_kg and chain_mass_kg_per_m replace
 /// it, ring_radius_mm is combined with the stated one by their sigmas, link_pitch_mm becomes a

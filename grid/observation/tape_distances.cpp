@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
@@ -24,8 +23,8 @@ namespace {
 /// A set in an order that the file's does not change.
 struct Sorted {
   MeasuredHoles set;
-  std::vector<std::size_t> hole;      ///< into the given set's
-  std::vector<std::size_t> distance;  ///< into the given set's
+  Indices hole;      ///< into the given set's
+  Indices distance;  ///< into the given set's
 };
 
 /// Holes by place and distances by their holes.
@@ -37,7 +36,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
     return std::tie(x.commanded.x_mm, x.commanded.y_mm, x.name) <
            std::tie(y.commanded.x_mm, y.commanded.y_mm, y.name);
   });
-  std::vector<std::size_t> place(set.holes.size());
+  Indices place(set.holes.size());
   for (std::size_t i = 0; i < result.hole.size(); ++i) {
     place[result.hole[i]] = i;
     result.set.holes[i] = set.holes[result.hole[i]];

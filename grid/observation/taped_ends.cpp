@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::observation {

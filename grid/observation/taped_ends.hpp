@@ -22,6 +22,7 @@
 #include <tl/expected.hpp>
 #include <variant>
 
+#include "grid/containers.hpp"
 #include "interp/eigen.hpp"
 #include "model/mechanism.hpp"
 
@@ -36,9 +37,9 @@ struct AtFixedPoint {
   std::size_t index = 0;
 };
 struct AtHole {
-  VectorXd lengths_mm;         ///< paid out
-  std::vector<bool> deciding;  ///< two lengths that determine the tool's position
-  ToolPosition meant;          ///< the commanded position
+  VectorXd lengths_mm;  ///< paid out
+  Flags deciding;       ///< two lengths that determine the tool's position
+  ToolPosition meant;   ///< the commanded position
 };
 using TapeEnd = std::variant<AtPlace, AtFixedPoint, AtHole>;
 

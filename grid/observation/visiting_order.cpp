@@ -34,7 +34,7 @@ MarkInLine in_line(const MarkPoint& mark, std::size_t index, const VisitingOrder
 
 struct Visits {
   std::vector<MarkInLine> first;
-  std::vector<std::size_t> again;
+  Indices again;
 };
 
 Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& order) {

@@ -38,8 +38,8 @@ class Separation {
       : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
-  PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
-    std::vector<Index> rows;
+  PerSide<double> squared_sigmas(const Indices& points) const {
+    Rows rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * as_index(point));
       rows.push_back(rows.back() + 1);
@@ -58,7 +58,7 @@ class Separation {
   }
 
   /// Harmonic mean of both chains': near the smaller one, and increased by either.
-  double together(const std::vector<std::size_t>& points) const {
+  double together(const Indices& points) const {
     const PerSide<double> answer = squared_sigmas(points);
     return 2.0 / (1.0 / answer.left + 1.0 / answer.right);
   }
@@ -69,8 +69,8 @@ class Separation {
 };
 
 /// Exchanges points as long as an exchange is an improvement, from evenly spaced ones.
-std::vector<std::size_t> choose(const Separation& separation, std::size_t places, int points) {
-  std::vector<std::size_t> chosen;
+Indices choose(const Separation& separation, std::size_t places, int points) {
+  Indices chosen;
   for (int i = 0; i < points; ++i) {
     chosen.push_back(as_size(i) * (places - 1) / as_size(points - 1));
   }
@@ -147,7 +147,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   const auto readings = readings_at(map, places, request);
   if (!readings) return tl::unexpected(readings.error());
   const Separation separation(*readings);
-  const std::vector<std::size_t> chosen = choose(separation, places.size(), request.points);
+  const Indices chosen = choose(separation, places.size(), request.points);
   CheckPlan plan;
   for (const std::size_t k : chosen) plan.marks.push_back(places[k]);
   plan.expected_sigmas = roots(separation.squared_sigmas(chosen));

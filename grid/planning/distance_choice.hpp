@@ -99,14 +99,14 @@ class DistanceChooser {
 
   /// trace(C S) after the distances that are added one by one, each time the one that lowers it most.
   double variance_mm2(const Holes& holes) const {
-    std::vector<std::size_t> chosen;
+    Indices chosen;
     return add_best(measurable(holes, in_reach(holes)), chosen);
   }
 
   /// Those distances, single ones exchanged as long as an exchange is an improvement.
   Choice choose(const Holes& holes) const {
     const Measurable all = measurable(holes, in_reach(holes));
-    std::vector<std::size_t> chosen;
+    Indices chosen;
     Choice choice{{}, add_best(all, chosen)};
     choice.variance_mm2 =
         exchange({5, 1e-6, {"which distances are measured", 2, 2}, request_.progress},
@@ -154,7 +154,7 @@ class DistanceChooser {
   }
 
   /// \param chosen their numbers
-  double add_best(Measurable all, std::vector<std::size_t>& chosen) const {
+  double add_best(Measurable all, Indices& chosen) const {
     // Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many
     // updates; the first one is kept.
     constexpr double kBetterChoice = 1.0 + 1e-6;
@@ -208,7 +208,7 @@ class DistanceChooser {
   }
 
   /// trace(C S) after measuring those with these numbers.
-  double variance_mm2(const Measurable& all, const std::vector<std::size_t>& chosen) const {
+  double variance_mm2(const Measurable& all, const Indices& chosen) const {
     MatrixXd k = all.known(chosen, chosen);
     k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
     const MatrixXd pull = all.pull(Eigen::all, chosen);

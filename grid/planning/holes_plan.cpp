@@ -146,7 +146,7 @@ MeasuredHoles set_of(const Machine& machine, const HolesPlanRequest& request, co
     const MarkPoint q = holes[b]->place;
     return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
   });
-  std::vector<std::size_t> number(holes.size());
+  Indices number(holes.size());
   MeasuredHoles set;
   set.name = "plan";
   set.machine = machine;

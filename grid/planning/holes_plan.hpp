@@ -68,7 +68,7 @@ struct DetectableEffect {
   /// Norm of its change of the distances, in sigmas, after projection on settings and scales.
   double sigmas = 0.0;
   /// Effects whose pattern is the same to within 5 degrees, as indices.
-  std::vector<std::size_t> same_as;
+  Indices same_as;
 };
 
 struct HolesPlan {

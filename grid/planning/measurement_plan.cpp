@@ -161,12 +161,12 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const Machine& machi
   return MeasurementPlan{std::move(marks), shape.columns, shape.rows, extra, *std::move(map)};
 }
 
-std::vector<std::size_t> with_second_visits(std::size_t marks, std::size_t second) {
+Indices with_second_visits(std::size_t marks, std::size_t second) {
   if (3 * second > marks) {
     throw std::invalid_argument(fmt::format(
         "{} second visits of {} marks: three marks are needed for each", second, marks));
   }
-  std::vector<std::size_t> visits;
+  Indices visits;
   std::size_t made = 0;  // second visits so far
   for (std::size_t mark = 0; mark < marks; ++mark) {
     visits.push_back(mark);

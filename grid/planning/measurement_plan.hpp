@@ -88,6 +88,6 @@ inline constexpr std::size_t kUsualSecondVisits = 4;
 /// Numbers of the marks in the order of the visits: each of `marks` once, in order, and `second` of
 /// them again. The two visits of a mark are never consecutive.
 /// \throws std::invalid_argument for fewer than three marks a second visit.
-[[nodiscard]] std::vector<std::size_t> with_second_visits(std::size_t marks, std::size_t second);
+[[nodiscard]] Indices with_second_visits(std::size_t marks, std::size_t second);
 
 }  // namespace chaintrue::grid

@@ -160,7 +160,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   raise_to_rounding(drawing, *estimate);
 
   const VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);
-  std::vector<bool> rejected(drawing.measures.size(), false);
+  Flags rejected(drawing.measures.size(), false);
   for (const estimation::UnitEstimate& unit : estimate->units)
     rejected[readings->units()[unit.unit].index] = unit.is_rejected();
   if (auto slip = exchanged_rows(drawing, found, rejected)) return tl::unexpected(std::move(*slip));

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/input_checks/transformation_search.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
@@ -157,7 +155,7 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const 
 }
 
 std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing, const VectorXd& found,
-                                             const std::vector<bool>& rejected) {
+                                             const Flags& rejected) {
   // Both then within what 4.5 sigmas of a reading and the estimate allow.
   constexpr double kFitsSigmas = 8.0;
   for (std::size_t i = 0; i < rejected.size(); ++i) {

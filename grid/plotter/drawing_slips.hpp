@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/plotter/drawing_fit.hpp"
 #include "interp/eigen.hpp"
 
@@ -25,6 +26,6 @@ using DrawnValues = std::function<std::optional<VectorXd>(const Mechanism&)>;
 /// Two rejected measures that fit `found` once exchanged.
 [[nodiscard]] std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
                                                            const VectorXd& found,
-                                                           const std::vector<bool>& rejected);
+                                                           const Flags& rejected);
 
 }  // namespace chaintrue::grid

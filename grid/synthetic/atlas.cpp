@@ -2,7 +2,6 @@
 #include "grid/synthetic/atlas.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -103,7 +102,7 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition c
       machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
   if (!paid_out) return std::nullopt;
   const VectorXd& lengths = paid_out->lengths_mm;
-  std::vector<bool> counting(as_size(lengths.size()), false);
+  Flags counting(as_size(lengths.size()), false);
   counting[0] = counting[1] = true;
   const auto place = lengths.size() == 2
                          ? machine.actual->locate(lengths, visit)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -64,7 +63,7 @@ MarkPoint jittered(MarkPoint place, double radius_mm, Random& random) {
 // of them again.
 std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, Random& random) {
   std::vector<MarkPoint> session;
-  std::vector<std::size_t> unrepeated;
+  Indices unrepeated;
   int done = 0;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     session.push_back(marks[i].place);
@@ -102,8 +101,8 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
 }
 
 // The points at which the machine's effects miscount links.
-std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Visit>& visits) {
-  std::vector<std::size_t> points;
+Indices miscounted(const Machine& machine, const std::vector<Visit>& visits) {
+  Indices points;
   for (const AppliedEffect& effect : machine.effects) {
     const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
     if (known == nullptr || !known->at_one_visit) continue;
@@ -122,8 +121,7 @@ std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Vi
 // gross errors.
 std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
                                         const std::vector<ChainLengths>& lengths,
-                                        const SyntheticSpec& spec,
-                                        std::vector<std::size_t>& bad_points) {
+                                        const SyntheticSpec& spec, Indices& bad_points) {
   const SyntheticNoise& noise = spec.noise;
   Random length_noise(spec.seed, kLengthNoise);
   Random position_noise(spec.seed, kPositionNoise);

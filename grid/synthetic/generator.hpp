@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/progress.hpp"
 #include "grid/synthetic/design.hpp"
@@ -110,7 +111,7 @@ struct SyntheticAnswer {
   /// Readings at each point without noise and gross errors.
   std::vector<ChainLengths> lengths;
   /// Indices into the points: gross errors and miscounted links.
-  std::vector<std::size_t> bad_points;
+  Indices bad_points;
   std::uint64_t seed = 0;
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "grid/containers.hpp"
 #include "grid/failed.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/random.hpp"

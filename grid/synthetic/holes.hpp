@@ -9,11 +9,11 @@
 /// \endcode
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/failure.hpp"
@@ -43,7 +43,7 @@ struct SyntheticHoles {
   /// For each hole: the lengths that the controller paid out.
   std::vector<ChainLengths> lengths{};
   /// Indices into the distances of the bad readings.
-  std::vector<std::size_t> bad_readings{};
+  Indices bad_readings{};
 };
 
 enum class CutReason {
