@@ -7,7 +7,7 @@
 /// \code
 ///   if (contains(members, cause)) ...
 ///   stable_sort(models, descending(&CandidateModel::log_weight));
-///   design.col(as_index(k)) = columns[as_size(chosen)];
+///   for (const auto k : each_index(columns)) design.col(as_index(k)) = columns[k];
 /// \endcode
 #pragma once
 
@@ -88,6 +88,27 @@ std::vector<Integer> numbers_below(std::integral auto count) {
   std::iota(all.begin(), all.end(), Integer{0});
   return all;
 }
+
+/// The same to walk over, without a list of them.
+template <std::integral Integer>
+class Below {
+ public:
+  struct Iterator {
+    Integer at;
+    constexpr Integer operator*() const { return at; }
+    constexpr Iterator& operator++() { return ++at, *this; }
+    constexpr bool operator!=(Iterator other) const { return at != other.at; }
+  };
+  constexpr explicit Below(Integer count) : count_(std::max(count, Integer{0})) {}
+  constexpr Iterator begin() const { return {0}; }
+  constexpr Iterator end() const { return {count_}; }
+
+ private:
+  Integer count_;
+};
+constexpr auto each_below(std::integral auto count) { return Below(count); }
+/// The positions in a list.
+constexpr auto each_index(const auto& all) { return each_below(std::size(all)); }
 
 /// Each value once, in ascending order.
 template <class Container>

@@ -76,7 +76,7 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
       is_placed[point] = true;
     }
   }
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     if (!is_placed[k]) fit.state.places[k] = nearest_place(machine, belts.points[k], kAllBelts);
   }
 }
@@ -160,7 +160,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   for (std::size_t out = 0; out < most; ++out) {
     if (frame.is_sound && frame.residual_sigma_mm < kPlausibleSpreadMm) break;
     std::optional<AnchorFit> best;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (const std::size_t k : each_below(count)) {
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
       fewer[k] = {};
@@ -197,7 +197,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
   std::vector<observation::LengthsAtPlace> places;
   bool ordered = !belts.points.empty();
   const std::optional<BeltPull> reference = reference_pull(belts);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     const BeltPoint& point = belts.points[k];
     observation::LengthsAtPlace place;
     place.index = k;

@@ -26,7 +26,7 @@ BeltMachine with_anchors(BeltMachine machine, const AnchorVector& a) {
 bool are_on_a_line(const std::vector<FramePoint>& places) {
   constexpr double kLineMm = 50.0;
   Matrix2Xd at(2, std::ssize(places));
-  for (std::size_t k = 0; k < places.size(); ++k) {
+  for (const auto k : each_index(places)) {
     at.col(as_index(k)) = vector_of(places[k]);
   }
   at.colwise() -= at.rowwise().mean().eval();

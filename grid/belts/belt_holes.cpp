@@ -33,7 +33,7 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
   std::vector<MarkPoint> marks;
   MatrixXd marks_by_frame = MatrixXd::Zero(2 * count, kFrameUnknowns);
   MatrixXd laid(2 * count, 3);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const auto place = observation::placed_hole(
         *mechanism, hole_at(holes.machine, holes.set.holes[as_size(i)].commanded));
     if (!place) return false;
@@ -47,7 +47,7 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
   }
   const observation::DistanceGeometry geometry = observation::distance_geometry(holes.set, marks);
   const Index own = geometry.predicted_mm.size();
-  for (Index k = 0; k < own; ++k) {
+  for (const Index k : each_below(own)) {
     all.residual_mm[row + k] =
         length_of(holes.set, holes.set.distances[as_size(k)]) - geometry.predicted_mm[k];
   }
@@ -101,7 +101,7 @@ MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise, const 
       covariance += noise.size_mm * noise.size_mm * linear::carried(by_axis, kernel);
     }
   }
-  for (std::size_t k = 0; k < counting.size(); ++k) {
+  for (const auto k : each_index(counting)) {
     if (!counting[k]) covariance(as_index(k), as_index(k)) += kRejectedMm2;
   }
   return covariance;

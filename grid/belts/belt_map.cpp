@@ -172,7 +172,7 @@ BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
 
 BeltMachine machine_in_force(const BeltsFit& fit) {
   belts::AnchorVector stated;
-  for (Index i = 0; i < kAnchorUnknowns; ++i) {
+  for (const Index i : each_below(kAnchorUnknowns)) {
     const auto& one = fit.coordinates[as_size(i)].stated_mm;
     if (!one) throw precondition("anchors in force that nobody gave");
     stated[i] = *one;

@@ -179,7 +179,7 @@ std::optional<std::size_t> worst_of(const KnownFrame& known, const TapedState& s
   const TapedMarginal now = marginal(known, state);
   std::optional<std::size_t> worst;
   double most = estimation::kBadDistanceSigmas;
-  for (std::size_t k = 0; k < state.counting.size(); ++k) {
+  for (const auto k : each_index(state.counting)) {
     const auto row = as_index(k);
     const double sigmas = std::abs(now.left_out_mm(row)) / now.left_out_sigma_mm(row);
     if (!state.counting[k] || sigmas <= most) continue;
@@ -226,7 +226,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
                 const MatrixXd& covariance, belts::AnchorFit frame, BeltsFit& fit) {
   fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
-  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+  for (const auto i : each_index(fit.coordinates)) {
     const auto row = as_index(i);
     AnchorCoordinate& coordinate = fit.coordinates[i];
     coordinate.fitted_mm = state.frame.anchors[row];
@@ -245,7 +245,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   belts::place_all(measured, frame);
   const belts::FitDiagnostics view(measured, frame);
   const belts::FitResiduals& there = view.equations();
-  for (std::size_t k = 0; k < fit.places.size(); ++k) {
+  for (const auto k : each_index(fit.places)) {
     fit.places[k].at = frame.state.places[k];
     for (const Belt belt : kBelts)
       fit.places[k].belts[belt].residual_mm = there.residual_mm[belts::row_of(k, belt)];
@@ -254,7 +254,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   if (fit.causes.empty())
     fit.rms_mm = rms(std::vector<double>(there.residual_mm.begin(), there.residual_mm.end()));
   if (!fit.scale || measured.distances.empty()) return;
-  for (std::size_t i = 0; i < measured.distances.size(); ++i) {
+  for (const auto i : each_index(measured.distances)) {
     fit.scale->residuals_mm[i] =
         there.distance_residual[as_index(i)] * measured.distances[i].sigma_mm;
   }
@@ -273,8 +273,8 @@ MatrixXd posterior(const KnownFrame& known, const TapedState& state,
   if (smooth) {
     const MatrixXd kernel =
         displacement_kernel(state.rows.marks, state.rows.marks, state.noise.reach_mm);
-    for (Index i = 0; i < kernel.rows(); ++i) {
-      for (Index j = 0; j < kernel.cols(); ++j) {
+    for (const Index i : each_below(kernel.rows())) {
+      for (const Index j : each_below(kernel.cols())) {
         const double shared = state.noise.size_mm * state.noise.size_mm * kernel(i, j);
         prior.block<2, 2>(kFrameUnknowns + 2 * i, kFrameUnknowns + 2 * j) =
             shared * Matrix2d::Identity();
@@ -308,7 +308,7 @@ void fill_distances(const KnownFrame& known, const std::vector<BeltHoles>& sets,
   const TapedMarginal now = marginal(known, state);
   std::vector<double> left_out;
   Index row = 0;
-  for (std::size_t s = 0; s < sets.size(); ++s) {
+  for (const auto s : each_index(sets)) {
     for (const HoleDistance& distance : sets[s].set.distances) {
       BeltTapedDistance one{s,
                             words_of(sets[s].set, distance),
@@ -324,7 +324,7 @@ void fill_distances(const KnownFrame& known, const std::vector<BeltHoles>& sets,
   }
   found.left_out_rms_mm = rms(left_out);
   const MeasuredHoles& first = sets.front().set;
-  for (std::size_t i = 0; i < first.holes.size(); ++i)
+  for (const auto i : each_index(first.holes))
     found.holes.push_back({first.holes[i].name, first.holes[i].commanded, state.rows.marks[i]});
 }
 
@@ -363,7 +363,7 @@ tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const Measure
     stated.covariance =
         kStatedAnchorMm * kStatedAnchorMm * MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns);
     stated.fit.machine = measured.machine;
-    for (std::size_t i = 0; i < stated.fit.coordinates.size(); ++i) {
+    for (const auto i : each_index(stated.fit.coordinates)) {
       stated.fit.coordinates[i].name = belts::kCoordinateNames[i];
       stated.fit.coordinates[i].stated_mm = stated.frame.state.anchors[as_index(i)];
     }

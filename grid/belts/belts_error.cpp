@@ -49,7 +49,7 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
                                 : std::nullopt;
   VectorXd left_mm = VectorXd::Zero(2 * std::ssize(places));
   double worst_mm = -1.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     const BedPoint at = places[i].commanded;
     const auto row = 2 * as_index(i);
     if (displacement) left_mm.segment<2>(row) = displacement->at({at.x_mm, at.y_mm});

@@ -99,7 +99,7 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
   const double upper_mm = against && against->places >= kFewestBeltPoints ? against->upper_mm : 0.0;
   const double far_mm = upper_mm > kUpperMm ? kFarWithCommandsMm : kFarMm;
   std::optional<OtherFrame> found;
-  for (Index i = 0; i < belts::kAnchorUnknowns; ++i) {
+  for (const Index i : each_below(belts::kAnchorUnknowns)) {
     const double difference_mm = std::abs(frame.state.anchors[i] - stated[i]);
     const double variance = view.covariance()(i, i);
     if (!(variance > 0.0) || difference_mm < far_mm ||

@@ -18,7 +18,7 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
   lines.residual_mm.setZero(rows);
   lines.by_place.setZero(rows, 2);
   const BeltMachine machine = with_anchors(belts.machine, state.anchors);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     for (const Belt belt : kBelts) {
       const auto reading = model::reading_at(machine, belt, state.places[k]);
       if (!reading) continue;
@@ -51,7 +51,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
         linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
     block.left = block.line.by_parameter - block.line.by_position * block.by_unknown;
     precision_ += block.precision();
-    for (std::size_t p = 0; p < own.places.size(); ++p) {
+    for (const auto p : each_index(own.places)) {
       const std::size_t point = readings.readings()[own.places[p]].index;
       const auto slot = as_index(p);
       slots_[point] = Slot{blocks_.size(), slot};
@@ -64,7 +64,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
   }
   covariance_ = linear::PivotedCholesky(precision_).inverse();
   equations_.distance_residual.resize(std::ssize(belts.distances));
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+  for (const auto i : each_index(belts.distances)) {
     const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
     equations_.distance_residual[as_index(i)] =
         at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
@@ -154,13 +154,13 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
   const AnchorVector stated = anchors_of(belts.machine);
   const AnchorVector fitted = anchors_of(fit.machine);
   Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     for (const Belt belt : kBelts) {
       if (!view.counts(k, belt)) continue;
       squares.col(static_cast<Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
     }
   }
-  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+  for (const auto i : each_index(fit.coordinates)) {
     const auto row = as_index(i);
     AnchorCoordinate& coordinate = fit.coordinates[i];
     coordinate.name = kCoordinateNames[i];
@@ -178,7 +178,7 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
   double square = 0.0;
   PerBelt<double> squares;
   PerBelt<int> counts;
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     FittedPlace place{view.frame().state.places[k], view.place_covariance_mm2(k), {}};
     std::vector<BadBeltReading> bad;
     for (const Belt belt : kBelts) {
@@ -214,7 +214,7 @@ void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view, const Ma
   BeltScale scale;
   scale.factor = std::exp(view.frame().state.log_scale);
   scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+  for (const auto i : each_index(belts.distances)) {
     scale.residuals_mm.push_back(view.equations().distance_residual[as_index(i)] *
                                  belts.distances[i].sigma_mm);
   }
@@ -244,7 +244,7 @@ BeltPrediction summed(const std::vector<double>& residual_mm) {
 /// Each place predicted by anchors fitted without it. Rejected readings are excluded.
 BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
   std::vector<double> residual_mm;
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     // A taped place is not left out: the tape would still determine it.
     if (!view.is_placed(k) || view.is_taped(k)) continue;
     predict_point(belts, k, view.anchors_without(k), view.frame().counting[k], residual_mm);

@@ -85,7 +85,7 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
   if (fit.places.empty()) return std::nullopt;
   std::vector<std::pair<BeltEnd, BeltEnd>> pairs;
   const auto add_pairs = [&pairs](const std::vector<BeltEnd>& ends) {
-    for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (const auto i : each_index(ends)) {
       for (std::size_t j = i + 1; j < ends.size(); ++j) pairs.emplace_back(ends[i], ends[j]);
     }
   };

@@ -41,12 +41,12 @@ void share_out_links(RegressorSystem& system) {
            log_strength_density(lengths(as_index(k)));
   };
   std::map<CauseId, double> log_all;
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     if (!system.regressors[k].fixed) continue;
     double& sum = log_all.try_emplace(system.regressors[k].cause, kMinusInfinity).first->second;
     sum = log_sum(sum, log_weight(k));
   }
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     Regressor& d = system.regressors[k];
     if (!d.fixed) continue;
     d.log_prior =
@@ -82,7 +82,7 @@ DiagnosisFailure impossible(const ObservationSet& session, const model::MachineP
 double move_mm(const ObservationSet& session, const VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
-  for (Index k = 0; k < session.setting_columns(); ++k) {
+  for (const Index k : each_below(session.setting_columns())) {
     const bool turn =
         session.is_of_chains() && session.settings[as_size(k)] == Setting::sheet_rotation_rad;
     most = std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(k)));
@@ -133,7 +133,7 @@ void speak_of_leaders(const RegressorSystem& system, const ModelComparison& comp
 void drop_hidden(std::string_view reason, Analysis& a) {
   const VectorXd lengths = reduced_lengths(a.system);
   std::map<CauseId, double> reach;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+  for (const auto k : each_index(a.system.regressors)) {
     const Regressor& d = a.system.regressors[k];
     const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
     double& most = reach[d.cause];
@@ -145,7 +145,7 @@ void drop_hidden(std::string_view reason, Analysis& a) {
   }
   std::erase_if(a.candidates.testable, std::not_fn(shows));
   ColumnSet kept;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+  for (const auto k : each_index(a.system.regressors)) {
     if (shows(a.system.regressors[k].cause)) kept.push_back(as_index(k));
   }
   a.system.g = a.system.g.subset(kept);
@@ -295,7 +295,7 @@ void reject_slips(const Analysis& a, Flags& outliers) {
   for (const int k : a.decision.regressors) {
     const Regressor& own = regressor(a, k);
     if (!own.slip) continue;
-    for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+    for (const auto u : each_index(a.system.units)) {
       const SystemUnit& unit = a.system.units[u];
       if (!unit.reads_chains) continue;
       const SystemPlace& place = a.system.places[unit.places.front().place];
@@ -321,7 +321,7 @@ Nearest nearest_other(const Analysis& a, int column) {
                   [&](int k) { return same_class(a, other, regressor(a, k).cause); });
   };
   Nearest nearest;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+  for (const auto k : each_index(a.system.regressors)) {
     const auto at = as_index(k);
     if (excluded(a.system.regressors[k].cause)) continue;
     const double collinearity = collinearity_of(products(at), own.norm() * std::sqrt(squares(at)));

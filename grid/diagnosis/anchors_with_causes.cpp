@@ -78,7 +78,7 @@ double hold_to_usual_sizes(const std::vector<SizedCause>& known, const Regressor
   const Index settings = found.setting_change.size();
   VectorXd change = VectorXd::Zero(found.covariance.rows());
   double log_evidence = 0.0;
-  for (std::size_t i = 0; i < found.free.size(); ++i) {
+  for (const auto i : each_index(found.free)) {
     const std::size_t k = found.free[i];
     const Regressor& regressor = system.regressor(found.regressors[k]);
     if (!(regressor.coefficient_sigma > 0.0) || is_in(known, regressor.cause)) continue;
@@ -101,7 +101,7 @@ double hold_to_usual_sizes(const std::vector<SizedCause>& known, const Regressor
   }
   found.setting_change += change.head(settings);
   found.setting_covariance = found.covariance.topLeftCorner(settings, settings);
-  for (std::size_t i = 0; i < found.free.size(); ++i) {
+  for (const auto i : each_index(found.free)) {
     const auto k = as_index(found.free[i]);
     const Index at = settings + as_index(i);
     found.coefficient(k) += change(at);
@@ -152,7 +152,7 @@ class Averaging {
     for (const CandidateModel& model : models)
       log_weights.push_back(model.log_weight + log_prior_change(model));
     const double most = *max_element(log_weights);
-    for (std::size_t m = 0; m < log_weights.size(); ++m) {
+    for (const auto m : each_index(log_weights)) {
       const double weight = std::exp(log_weights[m] - most);
       if (weight > kLeastWeight) add(models[m], weight);
     }
@@ -245,7 +245,7 @@ class Averaging {
     parts_.push_back({weight, std::move(causes),
                       found.setting_change.head<belts::kAnchorUnknowns>(),
                       AnchorSquare(found.setting_covariance)});
-    for (std::size_t k = 0; k < model.regressors.size(); ++k) {
+    for (const auto k : each_index(model.regressors)) {
       const auto row = as_index(k);
       const Regressor& own = system_.regressor(model.regressors[k]);
       SizedCause cause = own;
@@ -286,7 +286,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
   frame.checks = std::max<Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
   const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
   double square = 0.0;
-  for (std::size_t k = 0; k < frame.counting.size(); ++k) {
+  for (const auto k : each_index(frame.counting)) {
     for (const Belt belt : kBelts) {
       if (frame.counting[k][belt]) square += std::pow(lines.residual_mm[belts::row_of(k, belt)], 2);
     }
@@ -326,7 +326,7 @@ CauseInAnchorFit cause_in_fit(const AveragedCause& own) {
   CauseInAnchorFit result;
   result.effect = own.cause.cause.effect->id;
   result.side = name(own.cause.cause.side);
-  for (std::size_t i = 0; i < own.cause.values.size(); ++i) {
+  for (const auto i : each_index(own.cause.values)) {
     const auto& parameter = own.cause.cause.effect->parameters[i];
     result.parameters[std::string(parameter.name)] =
         std::clamp(own.cause.values[i], parameter.lower, parameter.upper);

@@ -48,7 +48,7 @@ struct UnitPlace {
 
 std::vector<UnitPlace> places_of_units(const RegressorSystem& system) {
   std::vector<UnitPlace> result;
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const auto& places = system.units[u].places;
     if (places.empty()) continue;
     Vector2d sum = Vector2d::Zero();
@@ -77,7 +77,7 @@ PartPosterior summary(const RegressorSystem& system,
                       const std::vector<const CandidateModel*>& models,
                       const std::vector<double>& probability, BedPart part) {
   PartPosterior result{std::move(part)};
-  for (std::size_t k = 0; k < models.size(); ++k) {
+  for (const auto k : each_index(models)) {
     if (!models[k]->regressors.empty()) result.caused += probability[k];
     for (const int regressor : models[k]->regressors) {
       const CauseId& cause = system.regressor(regressor).cause;
@@ -153,7 +153,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
   });
   std::map<ModelKey, double> weights;  // of models with a pattern
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    for (std::size_t k = 0; k < models.size(); ++k) {
+    for (const auto k : each_index(models)) {
       if (models[k]->discrepancy >= 0) weights[key_of(*models[k])] += of_part[p][k];
     }
     result.push_back(summary(system, models, of_part[p], std::move(parts[p])));
@@ -171,7 +171,7 @@ std::vector<PartPosterior> session_posteriors(const RegressorSystem& system, std
   const Downdating downdating(system, comparison, followed_of(system));
   for (std::size_t session = 0; session < sessions; ++session) {
     BedPart others;
-    for (std::size_t u = 0; u < system.units.size(); ++u) {
+    for (const auto u : each_index(system.units)) {
       if (system.units[u].observation != session) others.units.push_back(u);
     }
     if (system.units.size() - others.units.size() < std::max<std::size_t>(fewest, 1)) continue;

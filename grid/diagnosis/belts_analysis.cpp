@@ -152,7 +152,7 @@ void BeltRules::restrain(bool detected, Analysis& a) const {
 belts::Counting decided_counting(const Analysis& a) {
   const Flags& rejected = marginalised_system(a).outliers;
   belts::Counting counting(a.system.places.size());
-  for (std::size_t u = 0; u < counting.size(); ++u) {
+  for (const auto u : each_index(counting)) {
     for (const Belt belt : kBelts) {
       counting[a.system.places[u].place][belt] = !rejected[4 * u + static_cast<std::size_t>(belt)];
     }
@@ -162,7 +162,7 @@ belts::Counting decided_counting(const Analysis& a) {
 
 std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& a) {
   std::vector<SizedCause> causes;
-  for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
+  for (const auto k : each_index(a.estimate.regressors)) {
     const Regressor& d = a.system.regressor(a.estimate.regressors[k]);
     causes.push_back(d);
     causes.back().values.front() = size_at(d, a.estimate.coefficient(as_index(k)));

@@ -34,7 +34,7 @@ double shape_error_mm(const BeltMachine& by, const BeltMachine& real,
   const auto n = std::ssize(rows);
   MatrixXd design = MatrixXd::Zero(2 * n, 3);
   VectorXd shift(2 * n);
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : each_below(n)) {
     const Eigen::Vector4d& row = rows[as_size(i)];
     design.row(2 * i) << 1.0, 0.0, -row[1];
     design.row(2 * i + 1) << 0.0, 1.0, row[0];
@@ -49,7 +49,7 @@ double uncertain_mm(const BeltMachine& machine, const MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
   const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
-  for (Index i = 0; i < covariance.cols(); ++i) {
+  for (const Index i : each_below(covariance.cols())) {
     const belts::AnchorVector moved =
         belts::anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
@@ -108,7 +108,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
   const belts::AnchorFit& frame = given.frame;
   BeltsFindings found;
   found.machine = belts::with_anchors(a.belts.machine, a.averaged.anchors);
-  for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
+  for (const auto i : each_index(found.coordinates)) {
     const AnchorCoordinate& before = a.before.coordinates[i];
     const auto at = as_index(i);
     found.coordinates[i] = {before.name, before.stated_mm, before.fitted_mm, a.averaged.anchors[at],
@@ -118,7 +118,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
   found.rms_before_mm = rms_of_all_mm(a.belts, {{a.alone, a.belts}, {}});
   found.rms_mm = rms_of_all_mm(a.belts, given);
   double good_square = 0.0;
-  for (std::size_t k = 0; k < a.belts.points.size(); ++k) {
+  for (const auto k : each_index(a.belts.points)) {
     BeltPlacePicture place{frame.state.places[k], a.belts.points[k].order, {}, {}, {}};
     for (const Belt belt : kBelts) {
       const BeltResidual left = view.residual(k, belt);
@@ -192,7 +192,7 @@ std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::
 /// Rejected readings; a place with more than one is listed as a whole.
 std::vector<Outlier> bad_belts(const FitGivenCauses& given, const belts::FitDiagnostics& view) {
   std::vector<Outlier> result;
-  for (std::size_t k = 0; k < given.belts.points.size(); ++k) {
+  for (const auto k : each_index(given.belts.points)) {
     std::vector<Belt> bad;
     Outlier outlier;
     outlier.of = Observations::belts;

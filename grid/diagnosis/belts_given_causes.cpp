@@ -27,9 +27,9 @@ struct FreeValue {
 
 std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
   std::vector<FreeValue> free;
-  for (std::size_t j = 0; j < causes.size(); ++j) {
+  for (const auto j : each_index(causes)) {
     const auto& parameters = causes[j].cause.effect->parameters;
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
+    for (const auto i : each_index(parameters)) {
       if (!parameters[i].integer) free.push_back({j, i, &parameters[i]});
     }
   }
@@ -42,7 +42,7 @@ MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<SizedCause>
   // Share of a value's usual spread, for difference quotients.
   constexpr double kStep = 0.05;
   MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
-  for (std::size_t f = 0; f < free.size(); ++f) {
+  for (const auto f : each_index(free)) {
     const double step = kStep * free[f].parameter->prior_sigma;
     const SizedCause& here = causes[free[f].cause];
     SizedCause there = here;
@@ -59,7 +59,7 @@ bool moved(const VectorXd& change, const std::vector<FreeValue>& free,
   // Share of a value's usual spread: a hundredth of what the best data leave uncertain.
   constexpr double kConverged = 1e-4;
   bool converged = true;
-  for (std::size_t f = 0; f < free.size(); ++f) {
+  for (const auto f : each_index(free)) {
     const EffectParameter& parameter = *free[f].parameter;
     double& value = causes[free[f].cause].values[free[f].value];
     double next = value + change[belts::kAnchorUnknowns + as_index(f)];
@@ -81,7 +81,7 @@ VectorXd least_squares(const FitGivenCauses& given, const MatrixXd& columns) {
   const RegressorSystem system = linearise(set, estimation::stated_state(set)).value();
   MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
   design.leftCols<belts::kAnchorUnknowns>() = system.by_setting;
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
         unit.by_reading * columns.middleRows<4>(belts::row_of(set.units[u].index, Belt::tl));
@@ -103,7 +103,7 @@ VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& cau
     const bool acts =
         any_of(effects, [belt](const auto& own) { return model::belts::acts_on(own.side, belt); });
     if (!acts) continue;
-    for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const auto k : each_index(belts.points)) {
       const FramePoint at = state.places[k];
       const BeltPoint& point = belts.points[k];
       const model::belts::BeltVisit visit{belt, pulled_belts(point), point.order.value_or(0),
@@ -120,7 +120,7 @@ MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<Size
                               const belts::FrameState& state) {
   MeasuredBelts without_causes = belts;
   const VectorXd added = added_by(belts, causes, state);
-  for (std::size_t k = 0; k < without_causes.points.size(); ++k) {
+  for (const auto k : each_index(without_causes.points)) {
     for (const Belt belt : kBelts)
       without_causes.points[k].lengths_mm[belt] -= added[belts::row_of(k, belt)];
   }

@@ -86,7 +86,7 @@ class NextPlaces {
     for (std::size_t u = 0; u < system.units.size() && !candidates.empty(); ++u) {
       const SystemUnit& unit = system.units[u];
       Rows& rows = candidates[system.places[u].place].rows;
-      for (Index row = 0; row < unit.rows; ++row) rows.push_back(unit.first_row + row);
+      for (const Index row : each_below(unit.rows)) rows.push_back(unit.first_row + row);
     }
     return alternatives_about(a_, system, [&](const SizedCause& own) {
       return std::optional(column_of(belts, state, system, own));
@@ -129,7 +129,7 @@ void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlace
   if (!next.next_visit) return;
   const FramePoint centre = model::centre_of(next.belts.machine);
   const std::size_t count = a.belts.points.size();
-  for (std::size_t i = 0; i < kRevisits; ++i) {
+  for (const std::size_t i : each_below(kRevisits)) {
     const std::size_t k = i * (count - 1) / (kRevisits - 1);
     const FramePoint at = a.frame.state.places[k];
     const BeltPoint& point = a.belts.points[k];

@@ -61,7 +61,8 @@ std::vector<int> visits_to_set_in(const MeasuredBelts& belts) {
 std::vector<int> thinned(const std::vector<int>& visits) {
   if (visits.size() <= kVisits) return visits;
   std::vector<int> few;
-  for (std::size_t i = 0; i < kVisits; ++i) few.push_back(visits[i * visits.size() / kVisits]);
+  for (const std::size_t i : each_below(kVisits))
+    few.push_back(visits[i * visits.size() / kVisits]);
   return few;
 }
 
@@ -135,7 +136,7 @@ ColumnOf columns_of(const MeasuredBelts& belts, const belts::FrameState& state,
     VectorXd& whole = from_the_start[cause.values];
     if (whole.size() == 0) whole = column_of(belts, state, system, cause);
     VectorXd column = whole;
-    for (std::size_t u = 0; u < system.units.size(); ++u) {
+    for (const auto u : each_index(system.units)) {
       const SystemUnit& unit = system.units[u];
       if (system.places[u].order < visit) column.segment(unit.first_row, unit.rows).setZero();
     }
@@ -215,7 +216,7 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
   RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;
   system.groups.clear();
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     SystemUnit& unit = system.units[u];
     for (Index belt = 0; belt < 4; ++belt)
       system.groups.push_back({unit.first_row, 2, Vector2d(unit.by_reading.col(belt))});
@@ -251,7 +252,7 @@ VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
                    const RegressorSystem& system, const SizedCause& cause) {
   const VectorXd added = added_by(belts, {cause}, state);
   VectorXd column(system.e.size());
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     column.segment(unit.first_row, unit.rows) =
         unit.by_reading * added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));

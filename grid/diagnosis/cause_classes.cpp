@@ -21,7 +21,7 @@ std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& syst
   const VectorXd square = squared_lengths(system, marginalised);
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
     const double score = std::abs(c(at)) / std::sqrt(square(at));
@@ -170,7 +170,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
     }
     classes[home].push_back(cause);
   }
-  for (std::size_t k = 0; k < classes.size(); ++k) {
+  for (const auto k : each_index(classes)) {
     CauseClass& members = classes[k];
     std::stable_partition(members.begin(), members.end(), std::not_fn(on_paper));
     if (mixed[k]) put_likelier_first(system, comparison, members);

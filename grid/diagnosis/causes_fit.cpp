@@ -64,10 +64,10 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
       squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
   }
   if (!squares.empty()) return squares;
-  for (std::size_t f = 0; f < plain.distances.size(); ++f) {
+  for (const auto f : each_index(plain.distances)) {
     const auto& before = plain.distances[f].distances;
     const auto& after = with_causes.distances[f].distances;
-    for (std::size_t k = 0; k < before.size(); ++k) {
+    for (const auto k : each_index(before)) {
       if (after[k].rejected) continue;
       squares.push_back({before[k].left_out_mm * before[k].left_out_mm,
                          after[k].left_out_mm * after[k].left_out_mm, squares.size()});
@@ -220,7 +220,7 @@ CompensationMap with_errors_before(const CompensationMap& own, const Compensatio
   MapContents contents = own.contents();
   const std::vector<MapPoint>& before = plain.contents().points;
   if (before.size() != contents.points.size()) return own;
-  for (std::size_t k = 0; k < before.size(); ++k) {
+  for (const auto k : each_index(before)) {
     contents.points[k].as_stated_mm = before[k].as_stated_mm;
     contents.points[k].sheet_placed_mm = before[k].sheet_placed_mm;
   }
@@ -274,7 +274,7 @@ void add_open_causes(const Measured& measured, const CausesFitOptions& options,
   const std::vector<Cause>& built_on = result.built_on;
   // Two for each uncertain place, one sigma to either side, and one for each undecided cause.
   std::vector<std::vector<ActingCause>> sets;
-  for (std::size_t k = 0; k < built_on.size(); ++k) {
+  for (const auto k : each_index(built_on)) {
     const ParameterEstimate* place = unsure_place(built_on[k]);
     if (place == nullptr) continue;
     for (const double off : {-place->sigma, place->sigma}) {
@@ -296,7 +296,7 @@ void add_open_causes(const Measured& measured, const CausesFitOptions& options,
   if (!built_on.empty()) differences.push_back({plain, map, least_known_size(built_on)});
   for (std::size_t k = 0; k < of_places; k += 2)
     if (others[k] && others[k + 1]) differences.push_back({*others[k], *others[k + 1], 0.5});
-  for (std::size_t k = 0; k < open_now.size(); ++k) {
+  for (const auto k : each_index(open_now)) {
     const auto& other = others[of_places + k];
     if (other) differences.push_back({map, *other, std::sqrt(open_now[k]->probability)});
   }

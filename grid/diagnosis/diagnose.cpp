@@ -125,7 +125,7 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
   for (std::size_t k = 0; k < names.size() && k < a.session.parts.size(); ++k) {
     std::array<estimation::SessionZero, 2> zeros;
     const ColumnSet& columns = a.session.parts[k].zero_columns;
-    for (std::size_t z = 0; z < columns.size(); ++z) {
+    for (const auto z : each_index(columns)) {
       zeros[z] = {a.estimate.setting_change(columns[z]),
                   std::sqrt(a.estimate.setting_covariance(columns[z], columns[z]))};
     }
@@ -271,7 +271,7 @@ std::optional<DiagnosisFailure> refused(const TestDrawing& drawing) {
 std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
   const auto parameters = a.session.mechanism->parameters();
   std::vector<DrawnSetting> settings;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
+  for (const auto k : each_index(parameters)) {
     const auto at = as_index(k);
     DrawnSetting own{std::string(parameters[k].name), a.session.stated_value(at),
                      a.system.setting(at) + a.estimate.setting_change(at),
@@ -285,7 +285,7 @@ std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
 std::vector<DrawnValue> drawn_values(const Analysis& a, const TestDrawing& drawing) {
   const Flags& outliers = marginalised_system(a).outliers;
   std::vector<DrawnValue> values(drawing.measures.size());
-  for (std::size_t u = 0; u < a.session.units.size(); ++u) {
+  for (const auto u : each_index(a.session.units)) {
     const SystemUnit& unit = a.system.units[u];
     const std::size_t index = a.session.units[u].index;
     DrawnValue& own = values[index];

@@ -49,7 +49,7 @@ MatrixXd between(const DiscrepancyKernel& kernel, const RegressorSystem& to, con
   const auto to_places = rows_by_place(to, rows, kernel);
   const auto from_places = rows_by_place(from, columns, kernel);
   MatrixXd c = MatrixXd::Zero(rows.size(), columns.size());
-  for (std::size_t p = 0; p < to_places.size(); ++p) {
+  for (const auto p : each_index(to_places)) {
     for (std::size_t q = 0; q < (symmetric ? p + 1 : from_places.size()); ++q) {
       if (to_places[p].empty() || from_places[q].empty()) continue;
       const SystemPlace& here = to.places[p];
@@ -80,7 +80,7 @@ std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
                                         const std::vector<SystemPlace>& places) {
   std::vector<FieldArgument> result;
   const Index components = field.of == Coordinate::border ? 2 : 1;
-  for (Index component = 0; component < components; ++component) {
+  for (const Index component : each_below(components)) {
     for (const SystemPlace& place : places) {
       result.push_back(field_argument(field, place, component));
     }
@@ -158,13 +158,13 @@ MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
   MatrixXd factor(n, std::min<Index>(n, 32));  // with room for more
   Index rank = 0;
   VectorXd left(n);
-  for (Index i = 0; i < n; ++i) left(i) = covariance(i, i);
+  for (const Index i : each_below(n)) left(i) = covariance(i, i);
   for (; rank < n; ++rank) {
     Index pivot = 0;
     const double most = left.maxCoeff(&pivot);
     if (most < least) break;
     VectorXd column(n);
-    for (Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
+    for (const Index i : each_below(n)) column(i) = covariance(i, pivot);
     const VectorXd own = factor.row(pivot).head(rank);
     linear::add_product(column, -1.0, factor.leftCols(rank), own);
     column /= std::sqrt(most);
@@ -191,7 +191,7 @@ FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
       const MatrixXd entry =
           KeptRows::of_unit(own, place.by_chain * field_entry(field, system.places[place.place]));
       const auto at = as_index(place.place);
-      for (Index k = 0; k < entry.rows(); ++k) {
+      for (const Index k : each_below(entry.rows())) {
         result.first.row(own.at + k) += entry(k, 0) * factor.row(at);
         result.second.row(own.at + k) += entry(k, 1) * factor.row(second + at);
       }
@@ -364,7 +364,7 @@ const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered) {
     constexpr double kHalf = 0.5;
     for (DiscrepancyKernel& own : family.kernels) own.prior *= kHalf;
     for (const double place_mm : kPlaceMm) {
-      for (Index length = 0; length < kLengths; ++length) {
+      for (const Index length : each_below(kLengths)) {
         DiscrepancyField field{Coordinate::place, place_mm, FieldEntry::lengths};
         field.alone = length;
         family.kernels.push_back({{field}, kHalf / as_double(kPlaceMm.size() * kLengths)});

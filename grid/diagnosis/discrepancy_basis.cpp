@@ -225,7 +225,7 @@ DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double s
   const Index r = on_.size();
   Half result{ArrayXd(r), ArrayXd::Zero(r), 0.0};
   double d = 0.0;
-  for (Index k = 0; k < r; ++k) {
+  for (const Index k : each_below(r)) {
     const double own = on_(k) + shift;
     const double before = k > 0 ? subdiagonal_(k - 1) : 0.0;
     if (k > 0) result.above(k) = before / std::sqrt(d);
@@ -238,7 +238,7 @@ DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double s
 }
 
 void DiscrepancyBasis::GivenKernel::apply(const Half& half, MatrixXd& lines) {
-  for (Index k = 0; k < lines.cols(); ++k) {
+  for (const Index k : each_below(lines.cols())) {
     if (k > 0) lines.col(k) -= half.above(k) * lines.col(k - 1);
     lines.col(k) *= half.on(k);
   }

@@ -107,7 +107,7 @@ std::optional<double> part_of_pattern(const Analysis& a, const std::vector<Corne
 }
 
 Shifts without(Shifts all, const Shifts& part) {
-  for (std::size_t i = 0; i < part.size(); ++i) all[i] -= part[i];
+  for (const auto i : each_index(part)) all[i] -= part[i];
   return all;
 }
 
@@ -155,7 +155,7 @@ ErrorBudget error_budget(const Analysis& a) {
     add(line, part);
   };
   const std::vector<Corner> corners = corners_of(a);
-  for (std::size_t k = 0; k < a.decision.regressors.size(); ++k) {
+  for (const auto k : each_index(a.decision.regressors)) {
     const Regressor& own = regressor(a, a.decision.regressors[k]);
     const double size = a.estimate.coefficient(as_index(k));
     BudgetLine line{.what = BudgetLine::What::cause, .cause = own.cause};

@@ -27,7 +27,7 @@ NoiseDensity::NoiseDensity(double dof, Index rows) : dof_(dof), rows_(as_double(
     return Component{anchor, std::log(prior) + constant + 0.5 * dof * std::log(anchor)};
   };
   components_.front() = component(1.0, 1.0 - kLargerNoisePrior);
-  for (std::size_t k = 0; k < std::size(kLargerNoise); ++k)
+  for (const std::size_t k : each_below(std::size(kLargerNoise)))
     components_[k + 1] = component(kLargerNoise[k], kLargerNoisePrior / std::size(kLargerNoise));
 }
 
@@ -41,12 +41,12 @@ double NoiseDensity::log_density_as_stated(double quadratic) const {
 
 NoiseDensity::Averages NoiseDensity::averages(double quadratic) const {
   std::array<double, std::tuple_size_v<decltype(components_)>> log_parts;
-  for (std::size_t k = 0; k < log_parts.size(); ++k) log_parts[k] = part(components_[k], quadratic);
+  for (const auto k : each_index(log_parts)) log_parts[k] = part(components_[k], quadratic);
   const double most = *max_element(log_parts);
   double sum = 0.0;
   double squares = 0.0;
   double as_stated = 0.0;
-  for (std::size_t k = 0; k < log_parts.size(); ++k) {
+  for (const auto k : each_index(log_parts)) {
     const double share = std::exp(log_parts[k] - most);
     sum += share;
     squares += share * (components_[k].anchor + quadratic);
@@ -63,7 +63,7 @@ double log_price_of_outlier(Index rows) {
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers) {
   double price = 0.0;
   Rows directions(system.units.size(), 0);
-  for (std::size_t k = 0; k < outliers.size(); ++k) {
+  for (const auto k : each_index(outliers)) {
     const OutlierGroup& group = system.groups[k];
     if (!outliers[k]) continue;
     if (!group.direction) {
@@ -131,7 +131,7 @@ ColumnSet NormalEquations::positions(const RegressorSet& some) const {
 
 VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
                        VectorXd squares) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
+  for (const auto i : each_index(columns)) {
     const double sigma = regressors[as_size(columns[i])].coefficient_sigma;
     if (sigma > 0.0) squares(as_index(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
   }
@@ -225,7 +225,7 @@ FreeEquations free_equations(const NormalEquations& equations,
   for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high})
     values->resize(m);
   result.gram.resize(m, m);
-  for (Index i = 0; i < m; ++i) {
+  for (const Index i : each_below(m)) {
     const Index at = free[as_size(i)];
     const Regressor& own = regressor(at);
     if (!(equations.gg(at, at) > 0.0)) {
@@ -253,14 +253,14 @@ FreeEquations free_equations(const NormalEquations& equations,
 /// Replaces a positive definite matrix by its inverse, by Gauss-Jordan elimination; returns its determinant.
 double invert(FewByFew& a) {
   double determinant = 1.0;
-  for (Index k = 0; k < a.rows(); ++k) {
+  for (const Index k : each_below(a.rows())) {
     const double pivot = std::exchange(a(k, k), 1.0);
     determinant *= pivot;
-    for (Index j = 0; j < a.cols(); ++j) a(k, j) /= pivot;
-    for (Index i = 0; i < a.rows(); ++i) {
+    for (const Index j : each_below(a.cols())) a(k, j) /= pivot;
+    for (const Index i : each_below(a.rows())) {
       if (i == k) continue;
       const double factor = std::exchange(a(i, k), 0.0);
-      for (Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(k, j);
+      for (const Index j : each_below(a.cols())) a(i, j) -= factor * a(k, j);
     }
   }
   return determinant;
@@ -282,7 +282,7 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
   result.log_evidence =
       averages.log_density - 0.5 * log_det - 0.5 * std::log(determinant * prior.cwiseAbs2().prod());
   const double s = std::sqrt(averages.noise_square);
-  for (Index i = 0; i < m; ++i) {
+  for (const Index i : each_below(m)) {
     const double sigma = s * std::sqrt(a(i, i));
     // Farther beyond its range than noise explains, and not merely about null: the data need
     // another cause.
@@ -321,9 +321,9 @@ EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
       noise_(noise),
       outside_(equations.ge.size(), std::ssize(kStrengthPriors)) {
   const double s = std::sqrt(noise.noise_square(equations.ee));
-  for (Index i = 0; i < outside_.rows(); ++i) {
+  for (const Index i : each_below(outside_.rows())) {
     const double unit = s / std::sqrt(equations.prior_square(i));
-    for (Index k = 0; k < outside_.cols(); ++k) {
+    for (const Index k : each_below(outside_.cols())) {
       const double sigma = unit * kStrengthPriors[as_size(k)].sigma;
       outside_(i, k) = regressor(i).fixed
                            ? 0.0
@@ -342,7 +342,7 @@ ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
     of_data -= gg.col(i).array();
   }
   ArrayXd most = ArrayXd::Constant(of_data.size(), kMinusInfinity);
-  for (Index k = 0; k < outside_.cols(); ++k) {
+  for (const Index k : each_below(outside_.cols())) {
     const StrengthPrior& prior = kStrengthPriors[as_size(k)];
     const auto occam = [&](Index i, double square) {
       return outside_(i, k) -
@@ -359,7 +359,7 @@ ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
     for (const Index i : set) {
       if (regressor(i).fixed) continue;
       VectorXd column = gg.col(i);
-      for (Index j = 0; j < rank; ++j) column -= factor(i, j) * factor.col(j);
+      for (const Index j : each_below(rank)) column -= factor(i, j) * factor.col(j);
       const double own = square(i) + precision(i);
       log_weight += occam(i, own);
       factor.col(rank) = column / std::sqrt(own);
@@ -369,7 +369,7 @@ ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
       square -= factor.col(rank).array().square();
       ++rank;
     }
-    for (Index i = 0; i < most.size(); ++i) {
+    for (const Index i : each_below(most.size())) {
       double q = quadratic - 2.0 * left(i) + square(i);
       double own = log_weight;
       if (!regressor(i).fixed) {

@@ -81,7 +81,7 @@ class PlaceOfCause {
     constexpr double kStep = 1e-3;
     const RegressorSystem& system = a_.system;
     MatrixXd slope = MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
-    for (Index column = 0; column < a_.session.setting_columns(); ++column) {
+    for (const Index column : each_below(a_.session.setting_columns())) {
       const double step = kStep * system.sigma(column);
       const auto at = [&](double change) -> std::optional<VectorXd> {
         VectorXd settings = system.setting;
@@ -304,7 +304,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
 std::vector<CalibratedSetting> settings_found(const Analysis& a) {
   const ObservationSet& session = a.session;
   std::vector<CalibratedSetting> result;
-  for (std::size_t k = 0; k < session.settings.size(); ++k) {
+  for (const auto k : each_index(session.settings)) {
     const auto at = as_index(k);
     if (!session.knows(k)) continue;
     CalibratedSetting one;
@@ -367,7 +367,7 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
   // A miscounted link is an outlier with a name.
   reject_slips(a, outliers);
   std::vector<Outlier> result;
-  for (std::size_t u = 0; u < outliers.size(); ++u) {
+  for (const auto u : each_index(outliers)) {
     if (outliers[u]) result.push_back(outlier_of(a, u));
   }
   sort(result, ascending([](const Outlier& own) { return std::pair(own.of, own.index); }));

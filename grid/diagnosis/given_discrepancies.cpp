@@ -47,7 +47,7 @@ class Scout {
     Scouted result{
         discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
     std::vector<std::pair<double, int>> all;
-    for (std::size_t k = 0; k < plain_.columns.size(); ++k) {
+    for (const auto k : each_index(plain_.columns)) {
       all.emplace_back(prior_[k] + share + single(d, as_index(k)), plain_.columns[k]);
     }
     keep_best(all, kSinglesGivenDiscrepancy);
@@ -129,7 +129,7 @@ RegressorSet first_of_each_cause(const RegressorSystem& system, const ScoredRegr
 RegressorSet columns_to_scout(const RegressorSystem& system, const NormalEquations& plain,
                               const std::vector<RegressorSet>& best_models) {
   ScoredRegressors scored;
-  for (std::size_t k = 0; k < plain.columns.size(); ++k) {
+  for (const auto k : each_index(plain.columns)) {
     const auto at = as_index(k);
     const double gain =
         score_alone(system.regressor(plain.columns[k]), plain.ge(at), plain.gg(at, at));

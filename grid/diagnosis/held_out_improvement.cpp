@@ -73,7 +73,7 @@ ExpectedImprovement over_units(const RegressorSystem& there, const VectorXd& mov
                                const MatrixXd& design, const MatrixXd& covariance) {
   double drop = 0.0;
   double doubt = 0.0;
-  for (std::size_t u = 0; u < there.units.size(); ++u) {
+  for (const auto u : each_index(there.units)) {
     const SystemUnit& unit = there.units[u];
     MatrixXd to_mm = unit.whitening.inverse();
     if (unit.reads_chains)
@@ -122,7 +122,7 @@ HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   std::vector<LengthPoint> points;
   Indices units;
   for (const auto& [part, readings] : parts_of<observation::ChainLengthReadings>(session)) {
-    for (std::size_t i = 0; i < readings->places().size(); ++i) {
+    for (const auto i : each_index(readings->places())) {
       const NumberedPlace& place = session.places[part->first_place + i];
       points.push_back({place.index, place.mark, place.lengths});
       units.push_back(part->first_unit + i);
@@ -238,7 +238,7 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
   std::vector<Fold> folds(blocks.units.size());
   for_each_index(folds.size(),
                  [&](std::size_t b) { folds[b] = fold_without(a, downdating, blocks.units[b]); });
-  for (std::size_t b = 0; b < folds.size(); ++b) {
+  for (const auto b : each_index(folds)) {
     const Fold& fold = folds[b];
     all.agree += names_agree(fold, a) ? 1 : 0;
     append_all(all.units, fold.units);
@@ -276,7 +276,7 @@ HeldOut summarise(const std::vector<Vector2d>& tool_mm, const Indices& block, st
   const std::size_t blocks = 1 + *max_element(block);
   std::vector<double> sum(blocks, 0.0);
   std::vector<double> count(blocks, 0.0);
-  for (std::size_t i = 0; i < tool_mm.size(); ++i) {
+  for (const auto i : each_index(tool_mm)) {
     sum[block[i]] += tool_mm[i].squaredNorm();
     count[block[i]] += 1.0;
   }

@@ -156,7 +156,7 @@ class CurveList {
     }
     for (double waves = kFirst; waves < 2.0 * most; waves += kStep) {
       std::complex<double> sum = 0.0;
-      for (std::size_t k = 0; k < phases.size(); ++k) {
+      for (const auto k : each_index(phases)) {
         sum += phases[k];
         phases[k] *= steps[k];
       }
@@ -304,7 +304,7 @@ namespace {
 RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
   const Index each = columns_of(curve.shape);
   RowVectorXd values(each * std::ssize(at));
-  for (Index k = 0; k < values.size(); ++k)
+  for (const Index k : each_below(values.size()))
     values(k) = basis(curve, at[as_size(k / each)], k % each, v);
   return values;
 }
@@ -315,7 +315,7 @@ MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
                      const std::vector<double>& at) {
   const Index count = columns_of(curve.shape) * std::ssize(at);
   MatrixXd columns = MatrixXd::Zero(system.e.size(), count);
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     for (const LawRows& own : law_rows(system, u, curve))
       columns.middleRows(unit.first_row, unit.rows) += own.rows * values_at(curve, at, own.v);

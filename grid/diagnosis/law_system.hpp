@@ -89,7 +89,7 @@ class LawSystem {
   std::vector<LawContext> contexts() const {
     std::vector<LawContext> all;
     for (int discrepancy = -1; discrepancy < family().count(); ++discrepancy) {
-      for (std::size_t set = 0; set < sets_.size(); ++set) all.push_back({discrepancy, set});
+      for (const auto set : each_index(sets_)) all.push_back({discrepancy, set});
     }
     return all;
   }
@@ -99,14 +99,14 @@ class LawSystem {
   MatrixXd log_weights(const std::vector<LawContext>& contexts,
                        const std::vector<ColumnSet>& laws) {
     MatrixXd result = MatrixXd::Constant(std::ssize(contexts), std::ssize(laws), kMinusInfinity);
-    for (Index row = 0; row < result.rows(); ++row) {
+    for (const Index row : each_below(result.rows())) {
       const LawContext& context = contexts[as_size(row)];
       const NormalEquations& equations = equations_of(context.discrepancy);
       const bool given = context.discrepancy >= 0;
       const double prior = log_prior(own_, sets_[context.set], given) +
                            (given ? family().log_share_of(context.discrepancy) : 0.0) +
                            marginalised_.log_outliers;
-      for (Index k = 0; k < result.cols(); ++k) {
+      for (const Index k : each_below(result.cols())) {
         const ColumnSet& law = laws[as_size(k)];
         if (!shows(law)) continue;
         result(row, k) =

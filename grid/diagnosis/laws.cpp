@@ -93,7 +93,7 @@ std::vector<ParameterEstimate> estimates(const WeighedLaw& best, const LawPoints
   const auto own = parameters_of(best);
   const auto names = parameter_names(best.curve->shape, best.curve->of);
   std::vector<ParameterEstimate> result;
-  for (std::size_t k = 0; k < own.size(); ++k) {
+  for (const auto k : each_index(own)) {
     const bool is_phase = names[k].ends_with("phase_rad");
     double weights = 0.0;
     double sum = 0.0;
@@ -176,7 +176,7 @@ Indices systems_to_weigh(const ModelComparison& comparison) {
   };
   Indices numbers = {comparison.best().marginalised};
   std::size_t fewest = numbers.front();
-  for (std::size_t k = 0; k < comparison.marginalised_systems.size(); ++k) {
+  for (const auto k : each_index(comparison.marginalised_systems)) {
     if (rejected(k) < rejected(fewest)) fewest = k;
   }
   if (fewest != numbers.front()) numbers.push_back(fewest);

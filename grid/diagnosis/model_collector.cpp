@@ -145,7 +145,7 @@ void search_by_beam(const RegressorSystem& system, const NormalEquations& equati
     for (const WeighedSet& parent : parents) {
       const ArrayXd most = bounds.with_each(parent.set);
       std::map<std::pair<bool, bool>, double> prior;  // of one more, by its kind
-      for (Index i = 0; i < equations.ge.size(); ++i) {
+      for (const Index i : each_below(equations.ge.size())) {
         const Regressor& own = sets.regressor(i);
         const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
         if (is_new) {

@@ -94,7 +94,7 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
   NormalEquations equations;
   equations.ee = ee;
   const std::array<Index, 1> first = {0};
-  for (std::size_t k = 0; k < regressors.size(); ++k) {
+  for (const auto k : each_index(regressors)) {
     const Regressor& own = regressors[k];
     if (scores.empty() || scores.back().cause != own.cause) {
       scores.push_back({own.cause});
@@ -132,7 +132,7 @@ std::vector<Flags> sets_without_links(const RegressorSystem& system, const Flags
   const MarginalisedSystem& marginalised = comparison.best_system();
   const Estimate fitted = estimate(system, marginalised, comparison.best().regressors, -1);
   std::vector<Flags> result;
-  for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
+  for (const auto i : each_index(marginalised.outliers)) {
     // A rejected direction is not a whole reading that is off by links.
     if (!marginalised.outliers[i] || excluded[i] || system.groups[i].direction) continue;
     const SystemUnit& unit = system.units[i];

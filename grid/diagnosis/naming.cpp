@@ -31,7 +31,7 @@ std::optional<std::string> suspected_tape_zero(const MeasuredHoles& set) {
 /// Slips of a whole file, which resemble no effect, in data that no file reader has checked.
 std::optional<std::string> suspected_slip(const Measured& measured) {
   for (std::size_t k = 1; k < measured.files().size(); ++k) {
-    for (std::size_t before = 0; before < k; ++before) {
+    for (const std::size_t before : each_below(k)) {
       const MeasuredFile& first = measured.files()[before];
       const MeasuredFile& other = measured.files()[k];
       if (!same_readings(first, other)) continue;

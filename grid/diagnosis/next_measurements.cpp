@@ -126,7 +126,7 @@ class HoleCandidates {
   }
 
   void add_pairs() {
-    for (std::size_t i = 0; i < measured_.holes.size(); ++i) {
+    for (const auto i : each_index(measured_.holes)) {
       for (std::size_t j = i + 1; j < measured_.holes.size(); ++j) add({.from = i, .to = j});
     }
   }
@@ -136,7 +136,7 @@ class HoleCandidates {
     const bool edged =
         any_of(measured_.distances, [](const HoleDistance& d) { return d.edge.has_value(); });
     if (!edged) return;
-    for (std::size_t i = 0; i < measured_.holes.size(); ++i) {
+    for (const auto i : each_index(measured_.holes)) {
       for (const SheetEdge edge : kSheetEdges) add({.from = i, .edge = edge});
     }
   }
@@ -212,7 +212,7 @@ NextCandidates next_candidates(const Analysis& a) {
     observations.push_back(std::move(more->observation));
   };
   bool chains_read = false;
-  for (std::size_t part = 0; part < a.session.parts.size(); ++part) {
+  for (const auto part : each_index(a.session.parts)) {
     const ObservationPart& own = a.session.parts[part];
     // Another point is set out on the first sheet.
     if (own.reads_chains() && !chains_read) {
@@ -281,7 +281,7 @@ std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& altern
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
     ExpectedDiscrimination then = now;
-    for (std::size_t c = 0; c < options.size(); ++c) {
+    for (const auto c : each_index(options)) {
       if (options[c].times == 0) continue;
       Rows more = chosen;
       append_all(more, options[c].rows);
@@ -324,7 +324,7 @@ Alternative expected_with(const Analysis& a, const ObservationSet& session,
                           const RegressorSystem& next, const LawModel& model,
                           const RegressorSet& causes, const MatrixXd& law) {
   MatrixXd columns = MatrixXd::Zero(next.e.size(), std::ssize(causes) + law.cols());
-  for (std::size_t k = 0; k < causes.size(); ++k) {
+  for (const auto k : each_index(causes)) {
     if (const auto g = signature(session, a.state, next, a.system.regressor(causes[k])))
       columns.col(as_index(k)) = *g;
   }
@@ -348,7 +348,7 @@ std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& f
     alternatives.push_back(std::move(one));
   };
   double none = 1.0;
-  for (std::size_t k = 0; k < found.laws.size(); ++k) {
+  for (const auto k : each_index(found.laws)) {
     const WeighedLaw& law = found.heaviest[k];
     add(model_with(a, law), law.with, law.columns(*system), found.laws[k].probability);
     none -= found.laws[k].probability;

@@ -60,7 +60,7 @@ Indices by_place(const std::vector<MeasuredPoint>& points) {
 /// Whether a point's mark was measured more than once: which visit was first is unknown.
 Flags measured_again(const std::vector<MeasuredPoint>& points) {
   Flags again(points.size(), false);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     again[i] = any_of(points, [own = &points[i]](const MeasuredPoint& other) {
       return &other != own && distance_mm(other.mark, own->mark) <= kRepeatDistanceMm;
     });
@@ -81,7 +81,7 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& ag
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& compared = a.comparison.marginalised_systems[model.marginalised];
   Flags left_out = compared.outliers;
-  for (std::size_t u = 0; u < a.session.units.size(); ++u) {
+  for (const auto u : each_index(a.session.units)) {
     const NumberedUnit& unit = a.session.units[u];
     if (a.session.parts[unit.part].reads_chains() && again[unit.index]) left_out[u] = true;
   }
@@ -171,7 +171,7 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
   const std::vector<GivenModel> models = leading_models(a, measured_again(grid->points));
   std::vector<double> result(orders.size(), kMinusInfinity);
   double tried = 0.0;
-  for (std::size_t k = 0; k < orders.size(); ++k) {
+  for (const auto k : each_index(orders)) {
     const auto ordered = visited_in(measured, orders[k]);
     if (!ordered) continue;
     const OrderColumns columns = order_columns(a, *ordered);
@@ -225,7 +225,7 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
   const bool tells_corners = !contains(again, true);
   if (tells_corners && found.probability >= kOrderFound) return found;
   double from_any_corner = 0.0;
-  for (std::size_t k = 0; k < orders.size(); ++k) {
+  for (const auto k : each_index(orders)) {
     if (orders[k].rows == found.order.rows && orders[k].serpentine == found.order.serpentine)
       from_any_corner += probabilities[k];
   }
@@ -242,7 +242,7 @@ std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder
   const auto numbers = visit_numbers(points, order);
   if (!numbers) return std::nullopt;
   MeasuredGrid numbered = *grid;
-  for (std::size_t k = 0; k < places.size(); ++k) numbered.points[places[k]].order = (*numbers)[k];
+  for (const auto k : each_index(places)) numbered.points[places[k]].order = (*numbers)[k];
   Measured result;
   result.add({measured.files().front().name, std::move(numbered)});
   for (std::size_t k = 1; k < measured.files().size(); ++k) result.add(measured.files()[k]);

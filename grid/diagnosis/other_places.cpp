@@ -51,7 +51,7 @@ ExpectedRows expected_rows(const Analysis& a, const Estimate& fitted, const Regr
                       MatrixXd::Zero(by_setting.rows(), fitted.covariance.cols())};
   result.by_unknown.leftCols(settings) = by_setting;
   Index next = settings;
-  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
+  for (const auto k : each_index(fitted.regressors)) {
     const bool is_free = contains(fitted.free, k);
     if (const auto g = column(regressor(a, fitted.regressors[k]))) {
       result.mean += *g * fitted.coefficient(as_index(k));

@@ -129,7 +129,7 @@ class MeanShifts {
     }
     taken_.col(count_++) = column;
     for (const auto& [at, rows] : blocks_) {
-      for (Index k = 0; k < rows; ++k)
+      for (const Index k : each_below(rows))
         own_.col(at + k).head(rows) -= column[at + k] * column.segment(at, rows);
     }
   }
@@ -162,7 +162,7 @@ MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
 std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
                                    const std::vector<OutlierGroup>& groups) {
   std::vector<FreeGroup> free;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
+  for (const auto k : each_index(groups)) {
     const OutlierGroup& group = groups[k];
     const Rows& kept = marginalised.kept.rows();
     const auto at = std::lower_bound(kept.begin(), kept.end(), group.first_row);
@@ -190,7 +190,7 @@ struct Worst {
 std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
   std::optional<Worst> worst;
   double most = kMinusInfinity;
-  for (std::size_t k = 0; k < free.size(); ++k) {
+  for (const auto k : each_index(free)) {
     if (!shifts.is_checked(free[k])) continue;
     const double drop = shifts.drop_without(free[k]);
     const double gain = drop + 2.0 * log_price_of_outlier(free[k].directions());

@@ -83,7 +83,7 @@ class RegressorColumns {
   /// rows() x columns.size()
   MatrixXd dense(const RegressorSet& columns) const {
     MatrixXd result(rows(), std::ssize(columns));
-    for (Index k = 0; k < result.cols(); ++k) {
+    for (const Index k : each_below(result.cols())) {
       result.col(k) = col(columns[as_size(k)]);
     }
     return result;
@@ -106,8 +106,9 @@ class RegressorColumns {
   linear::Like<M> transpose_times(const M& m) const {
     const linear::Like<M> products = linear::product(linear::transposed(distinct()), m);
     linear::Like<M> result(cols(), m.cols());
-    for (Index column = 0; column < m.cols(); ++column) {
-      for (Index k = 0; k < cols(); ++k) result(k, column) = factor(k) * products(index(k), column);
+    for (const Index column : each_below(m.cols())) {
+      for (const Index k : each_below(cols()))
+        result(k, column) = factor(k) * products(index(k), column);
     }
     return result;
   }
@@ -116,9 +117,10 @@ class RegressorColumns {
   template <class Map>
   VectorXd squared_norms(const Map& map) const {
     VectorXd squares(count_);
-    for (Index k = 0; k < count_; ++k) squares(k) = map(VectorXd(distinct_.col(k))).squaredNorm();
+    for (const Index k : each_below(count_))
+      squares(k) = map(VectorXd(distinct_.col(k))).squaredNorm();
     VectorXd result(cols());
-    for (Index k = 0; k < cols(); ++k) result(k) = factor(k) * factor(k) * squares(index(k));
+    for (const Index k : each_below(cols())) result(k) = factor(k) * factor(k) * squares(index(k));
     return result;
   }
 

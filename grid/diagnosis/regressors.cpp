@@ -166,7 +166,7 @@ class Builder {
     const double to = std::min(place.upper, there.back());
     if (!(from < to)) return;
     const StepPlaces where = step_places(there, from, to);
-    for (std::size_t k = 0; k < where.at.size(); ++k) {
+    for (const auto k : each_index(where.at)) {
       values.back() = where.at[k];
       add_one(cause, values, std::log(share_of_side(cause) * where.mass[k]));
     }

@@ -178,7 +178,7 @@ void relinearise(Analysis& a) {
     bool converged = here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() <
                      kConvergedSettingMm;
     std::vector<Regressor> moved = own;
-    for (std::size_t k = 0; k < own.size(); ++k) {
+    for (const auto k : each_index(own)) {
       if (own[k].fixed) continue;
       moved[k].values.front() = here.size(k);
       converged = converged && std::abs(moved[k].values.front() - own[k].values.front()) <

@@ -36,7 +36,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session, Removal::What wh
   std::erase_if(order, [&](std::size_t u) { return !is_at_mark(session, session.units[u]); });
   stable_sort(order, ascending(at));
   std::vector<LeftOut> lines;
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (const auto k : each_index(order)) {
     if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm) lines.push_back({what});
     lines.back().units.push_back(order[k]);
     lines.back().at_mm += at(order[k]);
@@ -74,7 +74,7 @@ std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session) {
     const std::size_t first = holes.size();
     for (const observation::Place& hole : tape->places())
       holes.push_back({Removal::What::hole, hole.index});
-    for (std::size_t k = 0; k < tape->units().size(); ++k) {
+    for (const auto k : each_index(tape->units())) {
       const HoleDistance& distance = tape->set().distances[k];
       holes[first + distance.from].units.push_back(part->first_unit + k);
       if (!distance.edge) holes[first + distance.to].units.push_back(part->first_unit + k);
@@ -87,7 +87,7 @@ std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session) {
 std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
   using What = Removal::What;
   std::vector<LeftOut> groups = holes_to_leave_out(session);
-  for (std::size_t u = 0; u < session.units.size(); ++u) {
+  for (const auto u : each_index(session.units)) {
     const NumberedUnit& unit = session.units[u];
     groups.push_back(
         {is_at_mark(session, unit) ? What::point : What::distance, unit.index, 0.0, {u}});

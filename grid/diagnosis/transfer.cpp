@@ -32,7 +32,7 @@ VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet&
   const auto machine = std::ssize(kMachineSettings);
   VectorXd left = system.e - linear::product(system.by_setting.leftCols(machine),
                                              model.setting_change.head(machine));
-  for (std::size_t k = 0; k < model.regressors.size(); ++k) {
+  for (const auto k : each_index(model.regressors)) {
     const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
@@ -49,7 +49,7 @@ Indices block_numbers(const ObservationSet& session) {
   for (const NumberedPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
   Indices number(points.size(), 0);
   const auto blocks = spatial_blocks(points);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  for (const auto b : each_index(blocks)) {
     for (const std::size_t i : blocks[b]) number[i] = b;
   }
   return number;

@@ -162,9 +162,9 @@ MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
   Random random(a.options.seed, stream);
   MatrixXd z(n, draws);
   VectorXd u(shared);
-  for (Index draw = 0; draw < draws; ++draw) {
-    for (Index i = 0; i < n; ++i) z(i, draw) = random.normal();
-    for (Index q = 0; q < shared; ++q) u(q) = random.normal();
+  for (const Index draw : each_below(draws)) {
+    for (const Index i : each_below(n)) z(i, draw) = random.normal();
+    for (const Index q : each_below(shared)) u(q) = random.normal();
     linear::add_product(z.col(draw), 1.0, by_nuisance, u);
   }
   // What is left, then minus the unknowns.
@@ -200,7 +200,7 @@ double share_along(const Analysis& a, Coordinate coordinate) {
   if (n == 0) return 0.0;
   ArrayXd t(n);
   MatrixXd values(n, 2);
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : each_below(n)) {
     const SystemUnit& unit = a.system.units[units[as_size(i)]];
     t(i) = value_at(a.system.places[unit.places.front().place], coordinate);
     values.row(i) = unit.unwhitened(a.estimate.left).transpose();

@@ -188,7 +188,7 @@ std::string side_words(const CauseId& cause) {
 std::string joined(const std::vector<std::string>& parts, std::string_view last,
                    std::string_view between) {
   std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (const auto i : each_index(parts)) {
     if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : std::string(between);
     text += parts[i];
   }

@@ -15,7 +15,7 @@ namespace chaintrue::grid::estimation {
 ParameterKnowledge stated_knowledge(const Machine& machine) {
   ParameterKnowledge knowledge{VectorXd::Zero(kMachineUnknowns),
                                MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns)};
-  for (Index i = 0; i < kMachineSettingCount; ++i) {
+  for (const Index i : each_below(kMachineSettingCount)) {
     const double sigma =
         std::max(model::stated_sigma(machine, kMachineSettings[as_size(i)]), kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;

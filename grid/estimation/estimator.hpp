@@ -156,7 +156,7 @@ class Estimator {
       is_linearised_ = false;
       begin_weights();
       if (as_stated_.empty()) {
-        for (std::size_t k = 0; k < input_.observations.size(); ++k)
+        for (const auto k : each_index(input_.observations))
           as_stated_.push_back(problem_->marks(k));
       }
       Fit fit = solve(weights_, smoothing, perhaps_last && problem_->has_surface());
@@ -213,14 +213,14 @@ class Estimator {
   /// False, with nothing changed, if the fit without them fails.
   bool converge_without(RejectedReadings rejected) {
     std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
-    for (std::size_t u = 0; u < rejected.size(); ++u) {
+    for (const auto u : each_index(rejected)) {
       const SystemUnit& unit = problem_->units()[u];
       for (const Index i : rejected[u]) of_observation[unit.observation].push_back({unit.unit, i});
     }
     const observation::Observations before = input_.observations;
     auto fit = fit_;
     auto state = state_;
-    for (std::size_t k = 0; k < before.size(); ++k) {
+    for (const auto k : each_index(before)) {
       if (auto other = before[k]->about_others(of_observation[k]))
         input_.observations[k] = std::move(other);
     }
@@ -269,7 +269,7 @@ class Estimator {
 
   double step_to(const State& next, const ConvergenceRule& rule) const {
     double step = 0.0;
-    for (Index i = 0; i < problem_->settings(); ++i) {
+    for (const Index i : each_below(problem_->settings())) {
       const double stated = problem_->set().stated_sigma[i];
       if (stated <= kKnownSigma) continue;
       // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
@@ -291,10 +291,11 @@ class Estimator {
     if (input_.fixed_weights) return false;
     LeftOut left_out(*problem_, fit_, weights_);
     left_out.prepare_units();
-    for (Index u = 0; u < distances_.size(); ++u) distances_[u] = left_out.distance(as_size(u));
+    for (const Index u : each_below(distances_.size()))
+      distances_[u] = left_out.distance(as_size(u));
     double change = 0.0;
     VectorXd next = weights_;
-    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    for (const auto u : each_index(problem_->units())) {
       const UnitRule rule = rule_of(problem_->units()[u].rows);
       const auto at = as_index(u);
       if (rule.worst_first && weights_[at] == 0.0) continue;
@@ -318,7 +319,7 @@ class Estimator {
     constexpr double kSuspect = 2.5;
     std::optional<std::size_t> worst;
     std::size_t candidates = 0;
-    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    for (const auto u : each_index(problem_->units())) {
       const auto at = as_index(u);
       if (weights_[at] == 0.0 || !rule_of(problem_->units()[u].rows).worst_first) continue;
       ++candidates;

@@ -76,7 +76,7 @@ struct FinishedFit {
     const VectorXd coefficients = problem.coefficients(fit);
     const auto with_scales = [&](Index settings) {
       auto columns = numbers_below<Index>(settings);
-      for (Index i = 0; i < unknowns.scales; ++i) columns.push_back(unknowns.of_set + i);
+      for (const Index i : each_below(unknowns.scales)) columns.push_back(unknowns.of_set + i);
       return columns;
     };
     estimate.map_unknowns = coefficients(with_scales(problem.settings()));
@@ -89,7 +89,7 @@ struct FinishedFit {
     LeftOut left_out(problem, fit, weights);
     left_out.prepare_units();
     if (!input.held_out_together.empty()) left_out.prepare_all();
-    for (std::size_t u = 0; u < problem.units().size(); ++u) {
+    for (const auto u : each_index(problem.units())) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
       const MatrixXd back = unit.whitening.inverse();
@@ -109,7 +109,7 @@ struct FinishedFit {
     }
     for (const UnitGroup& group : input.held_out_together) {
       const auto residuals = left_out.residuals(group);
-      for (std::size_t k = 0; k < group.size(); ++k) {
+      for (const auto k : each_index(group)) {
         estimate.units[group[k]].left_out_with_group =
             problem.units()[group[k]].whitening.inverse() * residuals[k];
       }
@@ -120,7 +120,7 @@ struct FinishedFit {
     const VectorXd coefficients = problem.coefficients(fit);
     const VectorXd sigma = problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
     const auto corrections = problem.corrections_of(state);
-    for (std::size_t k = 0; k < problem.set().parts.size(); ++k) {
+    for (const auto k : each_index(problem.set().parts)) {
       const ObservationPart& part = problem.set().parts[k];
       ObservationEstimate own;
       own.sheet = problem.sheet_at(coefficients, k);
@@ -135,13 +135,13 @@ struct FinishedFit {
         const Vector2d zeros = coefficients(part.zero_columns);
         const Vector2d zero_sigma = sigma(part.zero_columns);
         own.zeros = {{{zeros[0], zero_sigma[0]}, {zeros[1], zero_sigma[1]}}};
-        for (std::size_t u = 0; u < line->units.size(); ++u) {
+        for (const auto u : each_index(line->units)) {
           const observation::Unit& rows = part.observation->units()[u];
           for (const observation::PlaceColumns& place : line->units[u].places)
             own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
         }
       }
-      for (std::size_t i = 0; i < line->places.size(); ++i) {
+      for (const auto i : each_index(line->places)) {
         const observation::ChainPlaceState& place = line->places[i];
         own.places.push_back({as_stated[k][i], place.mark, place.by_mark, place.reading.lengths});
       }

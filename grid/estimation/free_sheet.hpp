@@ -42,7 +42,7 @@ struct PlacesOnSheet {
     for (const MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
     MatrixXd motion = MatrixXd::Zero(3, 2 * count);
     double squares = 0.0;
-    for (Index i = 0; i < count; ++i) {
+    for (const Index i : each_below(count)) {
       const Vector2d at = vector_of(commanded[as_size(i)]) - middle;
       motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / as_double(count);
       motion(2, 2 * i) = -at.y();
@@ -56,7 +56,7 @@ struct PlacesOnSheet {
   /// m - c
   VectorXd alongside() const {
     VectorXd all(2 * std::ssize(marks));
-    for (std::size_t i = 0; i < marks.size(); ++i) {
+    for (const auto i : each_index(marks)) {
       all.segment<2>(2 * as_index(i)) = difference(marks[i], commanded[i]);
     }
     return all;
@@ -91,7 +91,7 @@ struct FreeDirections {
         -linear::product(inverse, linear::product(motion, places.by_unknown));
     following.bottomRows(more)(Eigen::all, places.free_columns).setZero();
     const VectorXd shift = linear::product(by_free, needed(alongside));
-    for (std::size_t i = 0; i < marks.size(); ++i) {
+    for (const auto i : each_index(marks)) {
       marks[i].x_mm += shift[2 * as_index(i)];
       marks[i].y_mm += shift[2 * as_index(i) + 1];
     }

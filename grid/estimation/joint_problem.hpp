@@ -74,7 +74,7 @@ class JointProblem {
     const std::vector<SurfaceCorrection> corrections = corrections_of(state);
     const auto mechanism = mechanism_at(state.settings);
     std::vector<ObservedFrom> from;
-    for (std::size_t k = 0; k < set_.parts.size(); ++k) {
+    for (const auto k : each_index(set_.parts)) {
       const bool about_none =
           is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
       from.push_back(
@@ -145,8 +145,7 @@ class JointProblem {
   /// Counted rows minus the fit's effective parameters.
   double dof(const interp::PenalisedFit& fit) const {
     Index rows = 0;
-    for (std::size_t u = 0; u < units_.size(); ++u)
-      rows += without_readings(units_[u], rejected(u)).cols();
+    for (const auto u : each_index(units_)) rows += without_readings(units_[u], rejected(u)).cols();
     return as_double(rows) - fit.edf;
   }
 
@@ -244,7 +243,7 @@ class JointProblem {
     Rows certain_rows;
     const auto take = [&](const SystemUnit& unit, Rows& list) {
       add_chain_columns(system, unit, state, design, response);
-      for (Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
+      for (const Index i : each_below(unit.rows)) list.push_back(unit.first_row + i);
     };
     units_ = system.units;
     for (SystemUnit& unit : units_) {
@@ -309,7 +308,7 @@ class JointProblem {
                                  const std::vector<ObservedFrom>& from, const State& state) {
     free_ = {};
     laid_marks_.clear();
-    for (std::size_t k = 0; k < set_.parts.size(); ++k) {
+    for (const auto k : each_index(set_.parts)) {
       const ObservationPart& part = set_.parts[k];
       PlacesOnSheet places;
       for (std::size_t i = 0; part.sheet && i < model::kSheetSettings.size(); ++i) {
@@ -320,7 +319,7 @@ class JointProblem {
       const Index rows = 2 * std::ssize(part.observation->places());
       places.by_unknown = MatrixXd::Zero(rows, unknowns_.total());
       places.moved = VectorXd::Zero(rows);
-      for (std::size_t p = 0; p < system.places.size(); ++p) {
+      for (const auto p : each_index(system.places)) {
         const SystemPlace& at = system.places[p];
         if (at.observation != k) continue;
         places.commanded.push_back(part.observation->places()[at.place].mark);

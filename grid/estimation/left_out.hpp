@@ -90,7 +90,7 @@ class LeftOut {
       const double weight = weights_[as_index(unit)];
       if (weight == 0.0) continue;
       const SystemUnit& own = problem_.units()[unit];
-      for (Index i = 0; i < own.rows; ++i) {
+      for (const Index i : each_below(own.rows)) {
         rows.push_back(own.first_row + i);
         roots.push_back(std::sqrt(weight));
       }
@@ -103,7 +103,7 @@ class LeftOut {
     const auto count = std::ssize(rows);
     const Eigen::Map<const VectorXd> root(roots.data(), count);
     VectorXd residual(count);
-    for (Index i = 0; i < count; ++i) {
+    for (const Index i : each_below(count)) {
       const Index row = rows[as_size(i)];
       residual[i] =
           root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
@@ -222,7 +222,7 @@ inline std::vector<Shift> shifts(const JointProblem& problem, const interp::Pena
   std::vector<Shift> all;
   const VectorXd residual = problem.response() - problem.design() * fit.coefficients;
   const FittedRows rows{problem.design(), residual, fit, problem.dof(fit)};
-  for (std::size_t u = 0; u < problem.units().size(); ++u) {
+  for (const auto u : each_index(problem.units())) {
     const SystemUnit& unit = problem.units()[u];
     const Rows& rejected = problem.rejected(u);
     Rows readings = rejected;

@@ -145,7 +145,7 @@ struct ObservationSet {
   /// Columns of an observation's own settings, as observation::columns_of() has them.
   ColumnSet columns_of(const ObservationPart& part) const {
     ColumnSet columns;
-    for (Index k = 0; k < parameters(); ++k) columns.push_back(k);
+    for (const Index k : each_below(parameters())) columns.push_back(k);
     // Follow-up readings may be in the frame of a sheet that they do not depend on.
     const bool has_sheet = part.sheet && part.observation->sheet();
     for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)

@@ -34,10 +34,10 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bendin
   penalised_rows = MatrixXd::Zero(points, size);
   polynomial_rows = MatrixXd::Zero(points, polynomials.cols());
   squares = VectorXd::Zero(points);
-  for (Index i = 0; i < points; ++i) {
+  for (const Index i : each_below(points)) {
     const MarkPoint mark = marks[as_size(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
-    for (std::size_t k = 0; k < support.index.size(); ++k) {
+    for (const auto k : each_index(support.index)) {
       penalised_rows.row(i) += support.value[k] * root.row(support.index[k]);
       polynomial_rows.row(i) += support.value[k] * polynomials.row(support.index[k]);
       squares[i] += support.value[k] * support.value[k];

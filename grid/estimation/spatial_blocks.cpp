@@ -9,7 +9,7 @@ namespace {
 /// Cuts `order` into `parts` runs of nearly equal length.
 std::vector<Indices> cut(const Indices& order, std::size_t parts) {
   std::vector<Indices> runs;
-  for (std::size_t part = 0; part < parts; ++part) {
+  for (const std::size_t part : each_below(parts)) {
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(part * order.size() / parts);
     const auto last =
         order.begin() + static_cast<std::ptrdiff_t>((part + 1) * order.size() / parts);

@@ -60,7 +60,7 @@ VectorXd distance_sigmas(const MeasuredHoles& set) {
 TrendRows distance_rows(const MeasuredHoles& set) {
   const auto n = as_index(set.distances.size());
   TrendRows rows{MatrixXd(n, kDistanceBasis), MatrixXd(n, 1)};
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : each_below(n)) {
     const HoleDistance& distance = set.distances[as_size(i)];
     rows.basis.row(i) = basis_of(set, distance);
     rows.off_mm(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
@@ -138,9 +138,9 @@ void add_axes(HoleTransformations& list) {
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
 void add_holes(const MeasuredHoles& set, const Flags& is_gross, HoleTransformations& list) {
-  for (std::size_t h = 0; h < set.holes.size(); ++h) {
+  for (const auto h : each_index(set.holes)) {
     std::size_t of_it = 0;
-    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+    for (const auto i : each_index(set.distances)) {
       const HoleDistance& distance = set.distances[i];
       const bool ends = distance.from == h || (!distance.edge && distance.to == h);
       of_it += is_gross[i] && ends ? 1 : 0;
@@ -164,7 +164,7 @@ void add_holes(const MeasuredHoles& set, const Flags& is_gross, HoleTransformati
                  [=](MeasuredHoles& meant) {
                    std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
                  });
-    for (std::size_t other = 0; other < h; ++other) {
+    for (const std::size_t other : each_below(h)) {
       add_of_holes(list, ProblemKind::other_order,
                    fmt::format("holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
@@ -246,7 +246,7 @@ struct DistanceRows {
       }
       return;
     }
-    for (std::size_t h = 0; h < set.holes.size(); ++h) {
+    for (const auto h : each_index(set.holes)) {
       if (h == written.from || h == written.to) continue;
       for (const auto& [from, to] : {std::pair(written.from, h), std::pair(h, written.to)}) {
         HoleDistance meant = written;
@@ -259,7 +259,7 @@ struct DistanceRows {
 
   std::vector<RowFinding> findings() const {
     std::vector<RowFinding> found;
-    for (std::size_t row = 0; row < set.distances.size(); ++row) {
+    for (const auto row : each_index(set.distances)) {
       if (!is_gross(row)) continue;
       const std::string question = question_of(row);
       if (question.empty()) continue;
@@ -280,7 +280,7 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   const RobustTrend trend = robust_trend(written_rows, sigma_mm);
   const DistanceRows rows{set, trend};
   Flags is_gross;
-  for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
+  for (const auto i : each_index(set.distances)) is_gross.push_back(rows.is_gross(i));
   const double median_mm = trend.median_residual_mm();
   const bool is_odd =
       trend.prior_chi_square > kOddDistances || median_mm > kSoundMm || contains(is_gross, true);

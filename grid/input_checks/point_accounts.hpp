@@ -75,7 +75,7 @@ class PointAccounts {
     const auto n = as_index(points.size());
     TrendRows rows{MatrixXd::Zero(n, kPointBasis),
                    MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
-    for (Index i = 0; i < n; ++i) {
+    for (const Index i : each_below(n)) {
       const auto k = as_size(i);
       if (!places[k]) continue;
       rows.basis.row(i) = basis_at(*places[k]);

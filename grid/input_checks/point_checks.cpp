@@ -91,7 +91,7 @@ constexpr double kRepeatMm = 30.0;
 Indices looked_at(std::size_t count) {
   const std::size_t few = std::min(count, kMostLookedAt);
   Indices rows;
-  for (std::size_t i = 0; i < few; ++i) rows.push_back(i * count / few);
+  for (const std::size_t i : each_below(few)) rows.push_back(i * count / few);
   return rows;
 }
 
@@ -192,7 +192,7 @@ std::string capitalised(std::string text) {
 std::optional<double> apart_from_its_repeat(const PlacedPoints& placed, std::size_t row) {
   const auto& [points, places] = placed;
   std::optional<double> apart;
-  for (std::size_t j = 0; j < points.size(); ++j) {
+  for (const auto j : each_index(points)) {
     if (j == row || !places[j]) continue;
     const BedPoint a = *places[row];
     const BedPoint b = *places[j];
@@ -277,7 +277,7 @@ struct PointRows {
   std::vector<RowFinding> findings() const {
     constexpr std::size_t kMostNamed = 200;
     Indices gross;
-    for (std::size_t row = 0; row < grid.points.size(); ++row) {
+    for (const auto row : each_index(grid.points)) {
       if (is_gross(row) && gross.size() < kMostNamed) gross.push_back(row);
     }
     std::vector<RowFinding> found;
@@ -305,7 +305,7 @@ Findings check_points(const MeasuredGrid& grid, Written written) {
   const RobustTrend trend = robust_trend(accounts.rows(placed), accounts.prior_sigma_mm());
   const PointRows rows{accounts, grid, placed, trend};
   bool is_odd = trend.prior_chi_square > kOddPoints || trend.median_residual_mm() > kSoundMm;
-  for (std::size_t row = 0; row < grid.points.size(); ++row) is_odd = is_odd || rows.is_gross(row);
+  for (const auto row : each_index(grid.points)) is_odd = is_odd || rows.is_gross(row);
   Findings findings;
   if (is_odd) findings.whole = of_the_file(accounts, grid, placed, trend, written);
   if (!findings.whole) findings.whole = turned_sheet(accounts, grid, trend);

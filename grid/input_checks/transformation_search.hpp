@@ -59,7 +59,7 @@ class Transformations {
                       const std::function<void(Data&, std::size_t row)>& mend) {
     const auto mended = [&written = written_, rows_of = rows_of_, mend](const RowSet& rows) {
       Data meant = written;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (const auto i : each_index(rows)) {
         if (rows[i]) mend(meant, i);
       }
       return rows_of(meant);

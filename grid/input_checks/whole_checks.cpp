@@ -264,7 +264,7 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   for (const MeasuredPoint& point : written.points) {
     std::optional<std::size_t> best;
     double least = 0.0;
-    for (std::size_t j = 0; j < written.places.size(); ++j) {
+    for (const auto j : each_index(written.places)) {
       const Place& place = written.places[j];
       if (!place || taken[j]) continue;
       const double apart = distance_mm(point.mark, *place);

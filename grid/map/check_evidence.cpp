@@ -84,7 +84,7 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   for (const model::MechanismChange& change : readings.changes)
     all.push_back(proposal_of(readings, change));
   all.push_back(plain(model::Change::unknown, CheckVerdict::measure_again, prior.unknown));
-  for (std::size_t u = 0; u < readings.units.size(); ++u) {
+  for (const auto u : each_index(readings.units)) {
     const CheckUnit& unit = readings.units[u];
     Proposal& bad = all.emplace_back(plain(model::Change::bad_point, CheckVerdict::measure_again,
                                            prior.bad_point / as_double(readings.units.size())));
@@ -167,7 +167,7 @@ class Evidence {
   /// Fills the hypothesis; returns the addition to the evidence for a quantity that can only grow.
   static double take_posterior(Proposal& proposal, const VectorXd& q, const MatrixXd& covariance) {
     double added = 0.0;
-    for (std::size_t k = 0; k < proposal.quantity_of_q.size(); ++k) {
+    for (const auto k : each_index(proposal.quantity_of_q)) {
       const auto at = as_index(k);
       QuantityFound& found = proposal.hypothesis.found[proposal.quantity_of_q[k]];
       found.value += q[at];
@@ -311,10 +311,10 @@ Check judged(const CheckReadings& readings, const CheckWords& words) {
   Check check;
   check.hypotheses = weighed_hypotheses(readings);
   decide(check);
-  for (std::size_t i = 0; i < readings.zero_mm.size(); ++i)
+  for (const auto i : each_index(readings.zero_mm))
     check.new_zero_mm.push_back(readings.zero_mm[i] + check.hypotheses.front().added(i).value);
   const VectorXd variance = readings.covariance.diagonal();
-  for (Index k = 0; k < readings.residual_mm.size(); ++k) {
+  for (const Index k : each_below(readings.residual_mm.size())) {
     check.residuals.push_back(
         {readings.names[as_size(k)], readings.residual_mm[k], std::sqrt(variance[k])});
   }

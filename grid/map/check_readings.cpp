@@ -140,7 +140,7 @@ void lay(const CompensationMap& map, CheckedPart& part) {
         return true;
       },
       part.sheet);
-  for (std::size_t i = 0; i < part.marks.size(); ++i)
+  for (const auto i : each_index(part.marks))
     part.marks[i] = on_map(part.placement, part.points[i]);
 }
 
@@ -230,7 +230,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   at.own.resize(2 * count, 2 * count);
   std::optional<ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const double share = as_double(i) / as_double(count);
     tell(progress, {"the map at the new points", 1, 2, share});
     const MarkPoint mark = marks[as_size(i)];
@@ -288,7 +288,7 @@ class Gathered {
     add_errors(readings_.by_length * at_.own, covariance);
     readings_.by_parameter = readings_.by_length * at_.by_parameter;
     readings_.lengths_mm.resize(2 * places);
-    for (Index i = 0; i < places; ++i)
+    for (const Index i : each_below(places))
       readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.lengths[as_size(i)]);
     return std::move(readings_);
   }
@@ -308,7 +308,7 @@ class Gathered {
     const Index before = row();
     const Vector3d laid(part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
     Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
-    for (std::size_t i = 0; i < part.points.size(); ++i) {
+    for (const auto i : each_index(part.points)) {
       const LengthPoint& point = part.points[i].point;
       const Matrix2d& by_mark = at_.by_mark[first + i];
       const auto chain = 2 * as_index(first + i);
@@ -332,8 +332,8 @@ class Gathered {
   /// Independent errors of the rows from one on, one sigma a column.
   void gather(const MatrixXd& by_error, Index first_row) {
     const Index first = errors_.empty() ? 0 : errors_.back().col() + 1;
-    for (Index column = 0; column < by_error.cols(); ++column) {
-      for (Index i = 0; i < by_error.rows(); ++i) {
+    for (const Index column : each_below(by_error.cols())) {
+      for (const Index i : each_below(by_error.rows())) {
         if (by_error(i, column) != 0.0)
           errors_.emplace_back(first_row + i, first + column, by_error(i, column));
       }
@@ -347,7 +347,7 @@ class Gathered {
     const Index before = row(), count = residual.size();
     append_all(residual_mm_, residual);
     Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
-    for (Index k = 0; k < count; ++k) {
+    for (const Index k : each_below(count)) {
       const HoleDistance& distance = set.distances[as_size(k)];
       readings_.names.push_back(words_of(set, distance) + of);
       add_unit(readings_.names.back(),
@@ -394,11 +394,11 @@ void add_errors(const Eigen::SparseMatrix<double>& errors, ReadingCovariance& co
   }
   Index columns = covariance.shared.cols();
   Entries entries;
-  for (Index column = 0; column < columns; ++column) {
+  for (const Index column : each_below(columns)) {
     for (At at(covariance.shared, column); at; ++at)
       entries.emplace_back(at.row(), column, at.value());
   }
-  for (Index error = 0; error < errors.cols(); ++error) {
+  for (const Index error : each_below(errors.cols())) {
     const std::size_t before = entries.size();
     for (At at(errors, error); at; ++at) entries.emplace_back(at.row(), columns, at.value());
     if (entries.size() == before) continue;
@@ -438,7 +438,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   if (!at) return tl::unexpected(at.error());
   Gathered gathered(*at);
   std::size_t first = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (const auto k : each_index(parts)) {
     gathered.add(parts[k], first, files.size() > 1 ? " of " + files[k].name : std::string{});
     first += parts[k].marks.size();
   }
@@ -448,7 +448,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
                                               : model::changes_of_chains(kUsualPitchMm);
   const ChainLengths zero = map.machine() != nullptr ? map.machine()->chain_zero : ChainLengths{};
   readings.zero_mm = {zero.left_mm, zero.right_mm};
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (const auto k : each_index(parts)) {
     for (const std::string& note : parts[k].notes)
       readings.notes.push_back(head_of(files[k]) + note);
   }

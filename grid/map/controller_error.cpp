@@ -56,7 +56,7 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
   }
   const double spacing = std::max(box.width() / kColumns, box.height() / kRows);
   const auto& corners = area.corners();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (const auto i : each_index(corners)) {
     const interp::PlanePoint from = corners[i], to = corners[(i + 1) % corners.size()];
     const double steps = std::ceil(std::hypot(to.x - from.x, to.y - from.y) / spacing);
     for (double step = 0.0; step < steps; step += 1.0)
@@ -84,7 +84,7 @@ PaidOut paid_out_by(const Machine& machine) {
 std::optional<VectorXd> controller_errors(const PaidOut& paid_out,
                                           const std::vector<MeasuredPlace>& places) {
   VectorXd errors(2 * std::ssize(places));
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     const auto lengths = paid_out(places[i].commanded);
     if (!lengths) return std::nullopt;
     errors.segment<2>(2 * as_index(i)) =
@@ -98,7 +98,7 @@ ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
   LargestError largest;
   double squares_mm2 = 0.0;
   int within = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     const Vector2d expected_mm = errors_mm.segment<2>(2 * as_index(i));
     largest.add(expected_mm, places[i].spread_mm);
     if (places[i].is_on_edge) continue;

@@ -63,7 +63,7 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid, const Machin
   if (!disturbed) return tl::unexpected(disturbed.error());
   const auto quiet = readings_with(without, visits);
   if (!quiet) return tl::unexpected(quiet.error());
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+  for (const auto i : each_index(grid.points)) {
     const ChainLengths read = (*points)[i].lengths;
     grid.points[i].lengths =
         ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),

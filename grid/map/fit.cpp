@@ -34,7 +34,7 @@ Lattice lattice_of(const std::vector<LengthPoint>& points) {
   for (const Side side : kSides) {
     MatrixXd& lengths_mm = lattice.lengths_mm[side];
     lengths_mm = MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const auto i : each_index(points)) {
       const auto [ix, iy] = lattice.of_mark[i];
       lengths_mm(ix, iy) += points[i].lengths[side];
     }
@@ -81,7 +81,7 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
     const interp::TensorSpline left = spline(lattice.lengths_mm.left);
     const interp::TensorSpline right = spline(lattice.lengths_mm.right);
     const std::size_t nodes = columns ? lattice.y_nodes_mm.size() : lattice.x_nodes_mm.size();
-    for (std::size_t node = 0; node < nodes; ++node) {
+    for (const std::size_t node : each_below(nodes)) {
       const std::size_t ix = columns ? line : node;
       const std::size_t iy = columns ? node : line;
       const auto l = left.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);

@@ -45,7 +45,7 @@ SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points, const
                                        estimation::PlacementNormal& sum) {
     const auto line = readings.linearise({stated, sheet}, {.sheet = true});
     if (!line) return false;
-    for (std::size_t i = 0; i < good.size(); ++i) {
+    for (const auto i : each_index(good)) {
       const auto row = 2 * as_index(i);
       const auto& commanded = good[i].commanded;
       const Vector2d residual =
@@ -126,7 +126,7 @@ constexpr double kTapeZeroSigmas = 3.0;
 void note_rejected(const MeasuredHoles& set, const FittedDistances& fit,
                    std::vector<std::string>& notes) {
   std::map<std::size_t, int> at_hole;
-  for (std::size_t k = 0; k < fit.distances.size(); ++k) {
+  for (const auto k : each_index(fit.distances)) {
     const FittedDistance& distance = fit.distances[k];
     if (!distance.rejected) continue;
     const HoleDistance& reading = set.distances[k];

@@ -97,7 +97,7 @@ estimation::EstimationInput estimation_input(const Parts& parts) {
 tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>& files,
                                                  const Parts& parts,
                                                  const estimation::Estimate& estimate) {
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (const auto k : each_index(parts)) {
     std::size_t all = 0;
     std::size_t bad = 0;
     for (const estimation::UnitEstimate& unit : estimate.units) {
@@ -150,7 +150,7 @@ void note_zeros(const std::vector<MeasuredFile>& files, const estimation::Estima
   const auto own = [&](std::size_t k) -> const auto& { return estimate.observations[k].zeros; };
   std::size_t of_map = 0;
   while (of_map + 1 < files.size() && files[of_map].grid() == nullptr) ++of_map;
-  for (std::size_t k = 0; k < files.size(); ++k) {
+  for (const auto k : each_index(files)) {
     if (!own(k)) continue;
     const std::string words = estimation::words_of(*own(k));
     if (words.empty()) continue;
@@ -225,7 +225,7 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files, const Parts& part
   const bool alone = files.size() == 1;
   MapContents& map = draft.map;
   map.surface = model_surface(fitting.estimate);
-  for (std::size_t k = 0; k < parts.size(); ++k)
+  for (const auto k : each_index(parts))
     parts[k]->add_to(draft, fitting, k, alone ? std::string{} : files[k].name);
   map.name = std::visit([](const auto& one) { return one.name; }, files.front().measured);
   map.domain = fitting.input.domain;

@@ -39,7 +39,7 @@ ModelSurface& surface_of(MapContents& contents) {
 /// Differences of the lengths at one place, a row for each chain; empty if a map does not answer.
 Matrix2Xd differences_at(const std::vector<MapDifference>& differences, MarkPoint mark) {
   Matrix2Xd at(2, std::ssize(differences));
-  for (std::size_t k = 0; k < differences.size(); ++k) {
+  for (const auto k : each_index(differences)) {
     const auto from = differences[k].from.lengths(mark);
     const auto to = differences[k].to.lengths(mark);
     if (!from || !to) return Matrix2Xd(2, 0);
@@ -96,7 +96,7 @@ RowVectorXd LargestError::largest_mm2() const {
   MatrixXd errors = linear::product(spread_mm_.topRows(2 * waiting_), draws_);
   errors.colwise() += expected_mm_.head(2 * waiting_);
   RowVectorXd largest = taken_mm2_;
-  for (Index k = 0; k < waiting_; ++k)
+  for (const Index k : each_below(waiting_))
     largest = largest.cwiseMax(errors.middleRows<2>(2 * k).colwise().squaredNorm());
   return largest;
 }

@@ -64,7 +64,7 @@ PerSide<MatrixXd> left_by_machine(const estimation::Estimate& estimate,
   PerSide<MatrixXd> values{none, none};
   const ReadingModel model(estimate.machine);
   const SheetPlacement& sheet = estimate.observations.front().sheet;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     if (points[i].is_rejected()) continue;
     const LengthPoint& point = points[i].point;
     // The fit reached every point with these settings.
@@ -99,7 +99,7 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
   LatticeFit lattice;
   std::vector<Vector2d> errors_here;
   std::vector<Vector2d> errors_there;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     const auto [ix, iy] = places->of_mark[i];
     Vector2d residual = points[i].left_out;
     if (!points[i].is_rejected()) {

@@ -127,7 +127,7 @@ std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
   std::optional<ChangedSettings> result;
   for (unsigned part = all; part > 0; --part) {
     model::Controller now = own;
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
+    for (const auto k : each_index(numbers)) {
       if ((part >> k & 1U) != 0) now.settings.*numbers[k] = others.*numbers[k];
     }
     auto check = check_map(map_for_settings(map, now, ""), commanded_with(measured, now));

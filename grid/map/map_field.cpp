@@ -42,7 +42,7 @@ class DesignSpread {
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading->position_jacobian * sheet_.sensitivity(mark);
     Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
-    for (std::size_t i = 0; i < settings_.size(); ++i) {
+    for (const auto i : each_index(settings_)) {
       const Setting setting = settings_[i];
       const Vector2d slope = model::is_of_sheet(setting)
                                  ? Vector2d(by_sheet.col(model::sheet_column(setting)))
@@ -54,7 +54,7 @@ class DesignSpread {
     for (const Side side : kSides) {
       auto own = spread.col(row_of(side));
       add(columns_.scale(side), reading->lengths[side], own);
-      for (std::size_t k = 0; k < support.index.size(); ++k)
+      for (const auto k : each_index(support.index))
         add(columns_.spline(side) + support.index[k], support.value[k], own);
     }
     return spread.transpose();
@@ -95,7 +95,7 @@ struct NodeSpread {
         noise.factor_found * noise.factor_found *
         observation::covariance_of({noise.length_mm, noise.position_mm}, here.mark_jacobian);
     Matrix2Xd spread(2, 2 * weights.size());
-    for (Index i = 0; i < weights.size(); ++i) {
+    for (const Index i : each_below(weights.size())) {
       const double own_mm2 = std::pow(doubt_mm.reshaped()[i], 2) + between;
       const Matrix2d covariance = node + own_mm2 * Matrix2d::Identity();
       // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.

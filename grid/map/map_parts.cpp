@@ -36,7 +36,7 @@ std::vector<SettingResult> setting_results(const Machine& stated,
   const SheetPlacement& placed = estimate.observations.front().sheet;
   const double placement[] = {placed.x_mm, placed.y_mm, placed.rotation_rad};
   std::vector<SettingResult> results;
-  for (std::size_t i = 0; i < estimate.settings.size(); ++i) {
+  for (const auto i : each_index(estimate.settings)) {
     const auto at = as_index(i);
     SettingResult result{estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)),
                          false};

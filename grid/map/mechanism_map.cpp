@@ -36,7 +36,7 @@ ToolPosition SheetInFrame::in_frame(BedPoint sheet) const {
 
 SheetPlacement laid_on(const std::vector<MarkPoint>& from, const std::vector<BedPoint>& to) {
   Matrix2Xd a(2, std::ssize(from)), b(2, std::ssize(from));
-  for (std::size_t i = 0; i < from.size(); ++i) {
+  for (const auto i : each_index(from)) {
     a.col(as_index(i)) = vector_of(from[i]);
     b.col(as_index(i)) = vector_of(to[i]);
   }
@@ -48,7 +48,7 @@ MechanismSpread spread_about(const VectorXd& values, const MatrixXd& covariance,
                              const PlacedAt& placed) {
   MechanismSpread spread{placed(values), {}};
   const linear::SymmetricEigen parts(covariance);
-  for (Index i = 0; i < values.size(); ++i) {
+  for (const Index i : each_below(values.size())) {
     const double variance = parts.eigenvalues()[i];
     // Below this a direction adds less than rounding.
     if (!(variance > 1e-12 * parts.eigenvalues().maxCoeff())) continue;
@@ -111,7 +111,7 @@ Matrix2Xd MechanismMap::tool_spread(BedPoint point) const {
   const auto others = std::ssize(spread_.others);
   Matrix2Xd spread = Matrix2Xd::Zero(2, others + 2);
   if (const auto paid_out = lengths_of(spread_.centre, point)) {
-    for (Index i = 0; i < others; ++i) {
+    for (const Index i : each_below(others)) {
       const PlacedMechanism& other = spread_.others[as_size(i)];
       const auto there = other.mechanism->locate_by_first(*paid_out);
       if (!there) continue;

@@ -45,7 +45,7 @@ bool states_noise(const MeasuredGrid& grid) {
 
 /// A surface through every node has no residuals there, but its own left-out residuals.
 void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& lattice) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     if (points[i].is_rejected()) continue;
     points[i].residual.setZero();
     points[i].left_out = lattice.left_out_residual_mm[i];
@@ -56,8 +56,8 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
   notes.emplace_back(
       "The readings have no noise and are on full rows and columns, so the map passes through "
       "every one of them.");
-  for (Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
-    for (Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
+  for (const Index iy : each_below(lattice.doubt_mm.cols())) {
+    for (const Index ix : each_below(lattice.doubt_mm.rows())) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
       notes.push_back(
           fmt::format("No reading at ({:.0f}, {:.0f}) was used; the map there comes from the row "
@@ -209,7 +209,7 @@ class PointsPart final : public FitPart {
     input.held_out_together.clear();
     const auto& units = fit.estimate.units;
     VectorXd& weights = input.fixed_weights.emplace(std::ssize(units));
-    for (std::size_t u = 0; u < units.size(); ++u)
+    for (const auto u : each_index(units))
       weights[as_index(u)] = units[u].is_rejected() ? 0.0 : 1.0;
     const auto plain = estimation::estimate(input);
     if (!plain || !plain->converged) return fit;

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
@@ -37,7 +38,7 @@ struct ReadingCovariance {
   Index rows() const { return of_map.rows(); }
   VectorXd diagonal() const {
     VectorXd sum = of_map.rowwise().squaredNorm();
-    for (Index column = 0; column < shared.outerSize(); ++column) {
+    for (const Index column : each_below(shared.outerSize())) {
       for (Eigen::SparseMatrix<double>::InnerIterator at(shared, column); at; ++at)
         sum[at.row()] += at.value() * at.value();
     }
@@ -79,7 +80,7 @@ class FactoredCovariance {
     for (const MatrixXd& own : covariance.own) {
       whitening_.push_back(whitening_of_unit(own));
       const MatrixXd& white = whitening_.back();
-      for (Index i = 0; i < white.rows(); ++i) {
+      for (const Index i : each_below(white.rows())) {
         for (Index j = 0; j <= i; ++j) entries.emplace_back(rows + i, rows + j, white(i, j));
         log_root_det_ -= std::log(white(i, i));
       }

@@ -92,7 +92,7 @@ std::optional<VectorXd> errors_with(const Machine& machine, const ControllerSett
 /// The settings in force, each changed by a number of its usual errors.
 ControllerSettings changed_by(const VectorXd& sigmas, const std::vector<FreeSetting>& free,
                               ControllerSettings settings) {
-  for (std::size_t k = 0; k < free.size(); ++k)
+  for (const auto k : each_index(free))
     *(settings.*free[k].value) += free[k].sigma * sigmas[as_index(k)];
   return settings;
 }
@@ -114,7 +114,7 @@ void round_to_type(const std::vector<FreeSetting>& free, const ControllerSetting
 double rms_of(const std::vector<MeasuredPlace>& places, const VectorXd& errors) {
   double squares_mm2 = 0.0;
   int within = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     if (places[i].is_on_edge) continue;
     squares_mm2 += errors.segment<2>(2 * as_index(i)).squaredNorm();
     ++within;
@@ -258,7 +258,7 @@ std::optional<ErrorsLine> linearised(const ErrorsAt& errors_at, const VectorXd& 
   const auto errors = errors_at(values);
   if (!errors) return std::nullopt;
   ErrorsLine line{*errors, MatrixXd(errors->size(), values.size())};
-  for (Index k = 0; k < values.size(); ++k) {
+  for (const Index k : each_below(values.size())) {
     const VectorXd step = kStep * VectorXd::Unit(values.size(), k);
     const auto up = errors_at(values + step), down = errors_at(values - step);
     if (!up || !down) return std::nullopt;

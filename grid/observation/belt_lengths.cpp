@@ -88,7 +88,7 @@ void BeltLengthReadings::join_places() {
   }
   block_of_.assign(readings_.size(), none);
   Indices block_of_root(readings_.size(), none);
-  for (std::size_t i = 0; i < readings_.size(); ++i) {
+  for (const auto i : each_index(readings_)) {
     if (!is_found(i)) continue;
     std::size_t& block = block_of_root[root_of(i)];
     if (block == none) {
@@ -98,7 +98,7 @@ void BeltLengthReadings::join_places() {
     blocks_[block].places.push_back(i);
     block_of_[i] = block;
   }
-  for (std::size_t k = 0; k < distances_.size(); ++k) {
+  for (const auto k : each_index(distances_)) {
     if (is_left_out[k]) continue;
     if (block_place[k]) {
       blocks_[block_of_[*block_place[k]]].distances.push_back(k);
@@ -126,7 +126,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
     place_of_unit_.push_back(place);
     if (is_known) {
       const LengthsAtPlace& own = readings_[place];
-      for (Index i = 0; i < own.lengths_mm.size(); ++i) {
+      for (const Index i : each_below(own.lengths_mm.size())) {
         if (own.counts(i)) measured.push_back(own.lengths_mm[i]);
       }
     } else {

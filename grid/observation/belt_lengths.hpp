@@ -61,7 +61,7 @@ struct LengthsAtPlace {
   bool counts(Index length) const { return counting.empty() || counting.at(as_size(length)); }
   Index counted() const {
     Index count = 0;
-    for (Index i = 0; i < lengths_mm.size(); ++i) count += counts(i) ? 1 : 0;
+    for (const Index i : each_below(lengths_mm.size())) count += counts(i) ? 1 : 0;
     return count;
   }
 };

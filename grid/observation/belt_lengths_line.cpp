@@ -16,7 +16,7 @@ namespace {
 Flags deciding_lengths(const LengthsAtPlace& place) {
   if (place.rejected.empty()) return place.counting;
   Flags deciding;
-  for (Index i = 0; i < place.lengths_mm.size(); ++i)
+  for (const Index i : each_below(place.lengths_mm.size()))
     deciding.push_back(place.counts(i) && !place.rejected.at(as_size(i)));
   return deciding;
 }
@@ -34,7 +34,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
   const Index parameters = with_parameters ? view.mechanism->values().size() : 0;
   BlockLine line{std::move(positions), VectorXd(rows), MatrixXd::Zero(rows, 2 * places),
                  MatrixXd::Zero(rows, parameters), VectorXd(rows)};
-  for (Index p = 0; p < places; ++p) {
+  for (const Index p : each_below(places)) {
     const std::size_t place = block.places[as_size(p)];
     const LengthsAtPlace& own = readings_[place];
     const auto at = view.mechanism->predict(line.positions[as_size(p)], own.visit, wanted);
@@ -43,7 +43,8 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
     line.by_position.block(lengths * p, 2 * p, lengths, 2) = at->by_position;
     if (with_parameters) line.by_parameter.middleRows(lengths * p, lengths) = at->by_parameter;
-    for (Index i = 0; i < lengths; ++i) line.weight[lengths * p + i] = own.counts(i) ? 1.0 : 0.0;
+    for (const Index i : each_below(lengths))
+      line.weight[lengths * p + i] = own.counts(i) ? 1.0 : 0.0;
   }
   Index row = lengths * places;
   for (const std::size_t k : block.distances) {
@@ -85,7 +86,7 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
             .solve(linear::product(linear::transposed(weighed), line.residual_mm));
     if (!move.allFinite()) break;
     std::vector<ToolPosition> next = line.positions;
-    for (std::size_t p = 0; p < next.size(); ++p) {
+    for (const auto p : each_index(next)) {
       next[p].x_mm += move[2 * as_index(p)];
       next[p].y_mm += move[2 * as_index(p) + 1];
     }
@@ -130,7 +131,7 @@ tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
     const View& view, const Columns& columns) const {
   const Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
   Linearisation result = blank(parameters + (columns.sheet ? 3 : 0));
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+  for (const auto b : each_index(blocks_)) {
     const std::size_t end = b + 1 < blocks_.size() ? first_unit_[b + 1] : units_.size();
     if (first_unit_[b] == end) continue;
     auto own = rows_of(view, blocks_[b], columns.parameters);
@@ -173,7 +174,7 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const bool is_known = first != nullptr && first->known;
   const bool is_alone = block.places.size() == 1 && block.distances.empty();
   Rows rows;
-  for (Index i = 0; i < line->weight.size(); ++i) {
+  for (const Index i : each_below(line->weight.size())) {
     if (line->weight[i] > 0.0) rows.push_back(i);
   }
   const auto count = std::ssize(rows);

@@ -42,10 +42,10 @@ DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points, std::vector<DrawnMe
   };
   auto order = numbers_below(measures.size());
   sort(order, ascending(key));
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  for (const auto i : each_index(points_))
     places_.push_back({i, points_[i].name, points_[i].commanded, points_[i].paid_out});
   measured_.resize(std::ssize(order));
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (const auto k : each_index(order)) {
     measures_.push_back(measures[order[k]]);
     measured_[as_index(k)] = measures_.back().value_mm;
     units_.push_back({as_index(k), 1, order[k]});
@@ -58,7 +58,7 @@ tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& vi
   if (!at) return tl::unexpected(at.error());
   const Index p = columns.parameters ? view.mechanism->values().size() : 0;
   Linearisation line = blank(p + (columns.sheet ? 3 : 0));
-  for (std::size_t k = 0; k < measures_.size(); ++k) {
+  for (const auto k : each_index(measures_)) {
     const auto row = as_index(k);
     const DrawnMeasure& m = measures_[k];
     const Located &from = (*at)[m.from], &to = (*at)[m.to], &middle = (*at)[m.middle];
@@ -91,7 +91,7 @@ tl::expected<std::vector<DrawnMeasures::Located>, Unreachable> DrawnMeasures::lo
   const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
                                       : model::Derivatives::by_position;
   std::vector<Located> all;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (const auto i : each_index(points_)) {
     const auto tool = view.mechanism->locate_by_first(points_[i].paid_out);
     if (!tool) return tl::unexpected(tool.error().at(i));
     Located own{vector_of(*tool), Matrix2Xd::Zero(2, 0)};

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 
@@ -61,7 +62,7 @@ std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {
   // An error of scale grows with the distance; an offset is the same for all.
   const double scale = median(ratio);
   std::vector<double> residual_of_scale;
-  for (std::size_t i = 0; i < excess.size(); ++i) {
+  for (const auto i : each_index(excess)) {
     residual_of_scale.push_back(std::abs(excess[i] - scale * commanded[i]));
     excess[i] = std::abs(excess[i] - middle);
   }

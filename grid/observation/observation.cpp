@@ -44,7 +44,7 @@ Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& readin
   const Eigen::Matrix<double, 2, 3> by_sheet =
       reading.position_jacobian * view.sheet.sensitivity(place);
   Matrix2Xd columns(2, std::ssize(settings));
-  for (std::size_t s = 0; s < settings.size(); ++s) {
+  for (const auto s : each_index(settings)) {
     const auto column = as_index(s);
     if (model::is_of_sheet(settings[s])) {
       columns.col(column) = by_sheet.col(model::sheet_column(settings[s]));

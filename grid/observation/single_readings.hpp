@@ -37,7 +37,7 @@ class SingleReadings final : public Observation {
              std::tie(b.what, b.side, b.value, b.sigma);
     });
     measured_.resize(std::ssize(readings_));
-    for (std::size_t k = 0; k < readings_.size(); ++k) {
+    for (const auto k : each_index(readings_)) {
       if (!(readings_[k].sigma > 0.0)) {
         throw precondition("a reading of {} with sigma {}; it must be positive",
                            name(readings_[k].what), readings_[k].sigma);
@@ -53,13 +53,13 @@ class SingleReadings final : public Observation {
     const std::vector<Setting> settings = settings_in(columns);
     const Machine& machine = view.chains().machine();
     Linearisation line = blank(std::ssize(settings));
-    for (std::size_t k = 0; k < readings_.size(); ++k)
+    for (const auto k : each_index(readings_))
       line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
-    for (std::size_t s = 0; s < settings.size(); ++s) {
+    for (const auto s : each_index(settings)) {
       if (model::is_of_sheet(settings[s])) continue;
       const Machine moved = model::with_setting(machine, settings[s],
                                                 model::stated_value(machine, settings[s]) + 1.0);
-      for (std::size_t k = 0; k < readings_.size(); ++k) {
+      for (const auto k : each_index(readings_)) {
         line.by_setting(as_index(k), as_index(s)) =
             predicted_reading(moved, readings_[k]) - predicted_reading(machine, readings_[k]);
       }

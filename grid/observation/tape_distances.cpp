@@ -37,7 +37,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
            std::tie(y.commanded.x_mm, y.commanded.y_mm, y.name);
   });
   Indices place(set.holes.size());
-  for (std::size_t i = 0; i < result.hole.size(); ++i) {
+  for (const auto i : each_index(result.hole)) {
     place[result.hole[i]] = i;
     result.set.holes[i] = set.holes[result.hole[i]];
   }
@@ -48,7 +48,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
     return std::tuple(std::min(a, b), std::max(a, b), d.edge, d.distance_mm, sigma_of(set, d));
   };
   stable_sort(result.distance, ascending(key));
-  for (std::size_t k = 0; k < result.distance.size(); ++k) {
+  for (const auto k : each_index(result.distance)) {
     HoleDistance own = set.distances[result.distance[k]];
     own.from = place[own.from];
     if (!own.edge) own.to = place[own.to];
@@ -65,7 +65,7 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
   const auto count = std::ssize(set.distances);
   DistanceGeometry geometry{VectorXd::Zero(count), MatrixXd::Zero(count, 2 * std::ssize(marks)),
                             MatrixXd::Zero(count, 2)};
-  for (Index k = 0; k < count; ++k) {
+  for (const Index k : each_below(count)) {
     const HoleDistance& distance = set.distances[as_size(k)];
     const MarkPoint from = marks.at(distance.from);
     const auto a = 2 * as_index(distance.from);
@@ -92,7 +92,7 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   const Index count = geometry.predicted_mm.size();
   DistanceNoise noise;
   noise.tape_mm2.resize(count);
-  for (Index k = 0; k < count; ++k) {
+  for (const Index k : each_below(count)) {
     noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[as_size(k)]), 2);
   }
   noise.holes_mm2 = std::pow(set.hole_sigma_mm, 2) * linear::outer(geometry.by_mark);
@@ -155,7 +155,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
   raise_to_rounding(set);
   TapeDistances result(std::move(set));
   const auto controller = model::make_controller_kinematics(*result.set_.machine);
-  for (std::size_t i = 0; i < result.set_.holes.size(); ++i) {
+  for (const auto i : each_index(result.set_.holes)) {
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
@@ -168,7 +168,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
   }
   const std::size_t count = result.set_.distances.size();
   result.measured_.resize(as_index(count));
-  for (std::size_t k = 0; k < count; ++k) {
+  for (const std::size_t k : each_below(count)) {
     const auto row = as_index(k);
     result.measured_[row] = length_of(result.set_, result.set_.distances[k]);
     result.units_.push_back({row, 1, k});
@@ -200,7 +200,7 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   const MatrixXd by_mark = factor * geometry.by_mark;
   Linearisation line = blank(std::ssize(settings));
   line.predicted = factor * geometry.predicted_mm;
-  for (std::size_t i = 0; i < states->size(); ++i) {
+  for (const auto i : each_index(*states)) {
     const ChainPlaceState& place = (*states)[i];
     // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
     const Matrix2Xd lengths = place.by_length.asDiagonal() *
@@ -209,10 +209,10 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
     line.by_setting += by_mark.middleCols<2>(2 * as_index(i)) * marks_by_setting;
   }
   line.by_nuisance << factor * geometry.by_size, VectorXd::Ones(rows()), by_mark;
-  for (Index k = 0; k < rows(); ++k) {
+  for (const Index k : each_below(rows())) {
     const double sigma = sigma_of(set_, set_.distances[as_size(k)]);
     UnitState unit{MatrixXd::Constant(1, 1, sigma * sigma), {}};
-    for (std::size_t i = 0; i < states->size(); ++i) {
+    for (const auto i : each_index(*states)) {
       const RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
       if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
     }
@@ -245,7 +245,7 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
   constexpr int kTurns = 6;
   constexpr double kConvergedMm = 1e-9;
   std::vector<ChainPlaceState> states;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  for (const auto i : each_index(places_)) {
     const ChainLengths paid_out = places_[i].lengths;
     BedPoint start = model::identity_placement(places_[i].mark);
     ChainLengths own = paid_out;

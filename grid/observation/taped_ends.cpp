@@ -34,7 +34,7 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const Mechanism& me
   if (!there) return tl::unexpected(there.error());
   // Lengths that do not meet have a nearest position, but no hole.
   constexpr double kTogetherMm = 1e-6;
-  for (std::size_t i = 0; i < hole.deciding.size(); ++i) {
+  for (const auto i : each_index(hole.deciding)) {
     const auto row = as_index(i);
     if (hole.deciding[i] &&
         !(std::abs(hole.lengths_mm[row] - there->lengths_mm[row]) < kTogetherMm))

@@ -39,7 +39,7 @@ struct Visits {
 
 Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& order) {
   Visits visits;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     const MarkPoint& mark = points[i].mark;
     const bool again = any_of(visits.first, [&](const MarkInLine& place) {
       const MarkPoint& other = points[place.index].mark;
@@ -109,7 +109,7 @@ tl::expected<std::vector<int>, std::string> visit_numbers(const std::vector<Meas
   }
   std::vector<int> numbers(points.size());
   int visit = 0;
-  for (std::size_t line = 0; line < lines.size(); ++line) {
+  for (const auto line : each_index(lines)) {
     stable_sort(lines[line], ascending(&MarkInLine::along_mm));
     if (order.serpentine && line % 2 == 1) std::reverse(lines[line].begin(), lines[line].end());
     for (const MarkInLine& mark : lines[line]) numbers[mark.index] = visit++;

@@ -46,12 +46,12 @@ class Separation {
     }
     const auto count = std::ssize(rows);
     MatrixXd k = covariance_(rows, rows);
-    for (Index i = 0; i < count; ++i) {
+    for (const Index i : each_below(count)) {
       for (Index j = i % 2; j < count; j += 2)
         k(i, j) += model::kZeroShiftSigmaMm * model::kZeroShiftSigmaMm;
     }
     MatrixXd grown = MatrixXd::Zero(count, 2);
-    for (Index i = 0; i < count; ++i)
+    for (const Index i : each_below(count))
       grown(i, i % 2) = model::kPitchGrowthSigma * readings_.lengths_mm[rows[as_size(i)]];
     const MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};

@@ -59,7 +59,7 @@ double exchange(Exchange how, const std::vector<One>& others, std::vector<One>& 
   bool moved = true;
   for (how.step.pass = 1; how.step.pass <= how.sweeps && moved; ++how.step.pass) {
     moved = false;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
+    for (const auto i : each_index(chosen)) {
       how.step.share = as_double(i) / as_double(chosen.size());
       tell(how.progress, how.step);
       for (const One& other : others) {
@@ -141,7 +141,7 @@ class DistanceChooser {
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks);
     const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
     MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
-    for (std::size_t i = 0; i < holes.size(); ++i) {
+    for (const auto i : each_index(holes)) {
       marks_by_unknown.middleRows<2>(2 * as_index(i)) = holes[i]->by_unknown;
     }
     Measurable all;
@@ -164,7 +164,7 @@ class DistanceChooser {
     while (chosen.size() < wanted) {
       Index best = -1;
       double best_gain = 0.0;
-      for (Index k = 0; k < std::ssize(all.distances); ++k) {
+      for (const Index k : each_below(std::ssize(all.distances))) {
         if (contains(chosen, as_size(k))) continue;
         const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
         if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
@@ -182,7 +182,7 @@ class DistanceChooser {
 
   std::vector<HoleDistance> in_reach(const Holes& holes) const {
     std::vector<HoleDistance> distances;
-    for (std::size_t a = 0; a < holes.size(); ++a) {
+    for (const auto a : each_index(holes)) {
       for (std::size_t b = a + 1; b < holes.size(); ++b) {
         const double way_mm = distance_mm(holes[a]->place, holes[b]->place);
         if (way_mm <= request_.longest_mm) distances.push_back({.from = a, .to = b});
@@ -193,7 +193,7 @@ class DistanceChooser {
     constexpr double kLongestToEdgeMm = 1000.0;
     const Bed& bed = frame_.machine->bed;
     const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
-    for (std::size_t a = 0; a < holes.size(); ++a) {
+    for (const auto a : each_index(holes)) {
       // The nearer of two edges: it is as informative.
       const MarkPoint at = holes[a]->place;
       const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,

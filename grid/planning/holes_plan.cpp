@@ -43,7 +43,7 @@ std::optional<PlannedPlace> planned_place(const ReadingModel& model, MarkPoint p
   const auto reading = model.at(model::identity_placement(place));
   if (!reading) return std::nullopt;
   Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
-  for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
+  for (const auto i : each_index(kMachineSettings)) {
     lengths.col(as_index(i)) = model.sensitivity(*reading, kMachineSettings[i]);
   }
   lengths.rightCols<2>() = vector_of(reading->lengths).asDiagonal();
@@ -67,7 +67,7 @@ ToolError tool_error(const Machine& machine, bool sheet_counts) {
   }
   MatrixXd motion(2 * count, kPlanUnknowns);
   MatrixXd rigid(2 * count, 3);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const PlannedPlace& place = places[as_size(i)];
     motion.middleRows<2>(2 * i) = place.by_unknown;
     rigid.middleRows<2>(2 * i) = SheetPlacement{}.sensitivity(place.place);
@@ -152,7 +152,7 @@ MeasuredHoles set_of(const Machine& machine, const HolesPlanRequest& request, co
   set.machine = machine;
   set.tape.sigma_mm = request.tape_sigma_mm;
   set.hole_sigma_mm = request.hole_sigma_mm;
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (const auto i : each_index(order)) {
     number[order[i]] = i;
     set.holes.push_back({std::string(1, static_cast<char>('A' + i)),
                          model::identity_placement(holes[order[i]]->place)});
@@ -340,8 +340,8 @@ std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
   std::vector<Pattern> patterns = patterns_of(set);
   stable_sort(patterns, descending([](const Pattern& one) { return one.found.sigmas; }));
   std::vector<DetectableEffect> found;
-  for (std::size_t i = 0; i < patterns.size(); ++i) {
-    for (std::size_t j = 0; j < patterns.size(); ++j) {
+  for (const auto i : each_index(patterns)) {
+    for (const auto j : each_index(patterns)) {
       if (i == j) continue;
       const double together = patterns[i].found.sigmas * patterns[j].found.sigmas;
       if (together > 0.0 &&

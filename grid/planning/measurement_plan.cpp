@@ -77,7 +77,7 @@ class Planner {
     places = whole_mm(std::move(places));
     std::optional<MarkPoint> worst;
     double largest = 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
+    for (const auto i : each_index(errors)) {
       const MarkPoint& place = places[i];
       // A point nearer than this to another one adds little information.
       const bool taken = any_of(marks, [&](const MarkPoint& mark) {
@@ -168,7 +168,7 @@ Indices with_second_visits(std::size_t marks, std::size_t second) {
   }
   Indices visits;
   std::size_t made = 0;  // second visits so far
-  for (std::size_t mark = 0; mark < marks; ++mark) {
+  for (const std::size_t mark : each_below(marks)) {
     visits.push_back(mark);
     // The last of them is the first mark's, after all others.
     if (made + 1 >= second || (mark + 1) * second < (made + 1) * marks) continue;

@@ -76,7 +76,7 @@ void raise_to_rounding(const TestDrawing& drawing, estimation::Estimate& estimat
 std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
   const auto parameters = estimate.mechanism->parameters();
   std::vector<PlotterSetting> settings;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
+  for (const auto k : each_index(parameters)) {
     const auto at = as_index(k);
     PlotterSetting own{parameters[k].name, *parameters[k].stated, estimate.mechanism->values()[at],
                        std::sqrt(std::max(estimate.covariance(at, at), 0.0))};
@@ -95,7 +95,7 @@ std::optional<VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFi
     pens.push_back(vector_of(*pen));
   }
   VectorXd values(std::ssize(drawing.measures));
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     const DrawnMeasure& m = drawing.measures[i];
     values[as_index(i)] =
         observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm;
@@ -188,7 +188,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(DrawingReason::not_converged,
                   "the page cannot be drawn with the fitted settings");
   }
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     const auto row = as_index(i);
     fit.measures.push_back({drawing.measures[i].value_mm, found[row], (*after)[row], rejected[i]});
   }

@@ -32,7 +32,7 @@ constexpr double kOfAFactor = 4.6;
 /// Measured over drawn by the machine as set, of all lengths.
 double median_share(const TestDrawing& drawing, const VectorXd& as_set) {
   std::vector<double> shares;
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     if (drawing.measures[i].kind == Kind::length)
       shares.push_back(drawing.measures[i].value_mm / as_set[as_index(i)]);
   }
@@ -94,7 +94,7 @@ MatrixXd derivatives(const DrawnValues& drawn, const Mechanism& machine) {
   const VectorXd& values = machine.values();
   const auto at_stated = drawn(*machine.with_values(values));
   MatrixXd by_parameter = MatrixXd::Zero(at_stated->size(), values.size());
-  for (Index k = 0; k < values.size(); ++k) {
+  for (const Index k : each_below(values.size())) {
     VectorXd other = values;
     other[k] += kStep;
     if (const auto then = drawn(*machine.with_values(other)))
@@ -104,7 +104,7 @@ MatrixXd derivatives(const DrawnValues& drawn, const Mechanism& machine) {
 }
 
 std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     const DrawnMeasure& own = drawing.measures[i];
     if (own.kind != Kind::bow) continue;
     const BedPoint a = drawing.crosses.at(own.from).commanded;
@@ -130,11 +130,11 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const 
   if (!as_set) return std::nullopt;
   const MatrixXd basis = derivatives(drawn, machine);
   VectorXd sigma(basis.cols());
-  for (Index k = 0; k < sigma.size(); ++k)
+  for (const Index k : each_below(sigma.size()))
     sigma[k] = std::max(1e-3, machine.parameters()[as_size(k)].prior_sigma.value_or(1e3));
   const std::function<TrendRows(const TestDrawing&)> rows = [&](const TestDrawing& meant) {
     TrendRows own{basis, MatrixXd(basis.rows(), 1)};
-    for (std::size_t i = 0; i < meant.measures.size(); ++i) {
+    for (const auto i : each_index(meant.measures)) {
       const auto row = as_index(i);
       own.off_mm(row, 0) = meant.measures[i].value_mm - (*as_set)[row];
     }
@@ -158,7 +158,7 @@ std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing, const V
                                              const Flags& rejected) {
   // Both then within what 4.5 sigmas of a reading and the estimate allow.
   constexpr double kFitsSigmas = 8.0;
-  for (std::size_t i = 0; i < rejected.size(); ++i) {
+  for (const auto i : each_index(rejected)) {
     for (std::size_t j = i + 1; j < rejected.size(); ++j) {
       if (!rejected[i] || !rejected[j]) continue;
       const DrawnMeasure &a = drawing.measures[i], &b = drawing.measures[j];

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 
 namespace {
@@ -10,7 +12,7 @@ namespace {
 /// Above the diagonal, row by row.
 std::vector<double> correlations_of(const MatrixXd& covariance) {
   std::vector<double> upper;
-  for (Index row = 0; row < covariance.rows(); ++row) {
+  for (const Index row : each_below(covariance.rows())) {
     for (Index column = row + 1; column < covariance.cols(); ++column) {
       const double both = std::sqrt(covariance(row, row) * covariance(column, column));
       upper.push_back(both > 0.0 ? covariance(row, column) / both : 0.0);
@@ -27,7 +29,7 @@ MatrixXd FoundPlotter::covariance() const {
       scale_left_mm_per_m.sigma, scale_right_mm_per_m.sigma;
   MatrixXd covariance = sigma.cwiseAbs2().asDiagonal();
   std::size_t next = 0;
-  for (Index row = 0; row < sigma.size(); ++row) {
+  for (const Index row : each_below(sigma.size())) {
     for (Index column = row + 1; column < sigma.size(); ++column, ++next)
       covariance(row, column) = covariance(column, row) =
           correlations.at(next) * sigma[row] * sigma[column];

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -37,7 +39,7 @@ TestDrawing planned_drawing(const SetPlotter& set) {
       {a.left_mm, a.top_mm},    {a.right_mm, a.top_mm}, {a.right_mm, a.bottom_mm},
       {a.left_mm, a.bottom_mm}, {x, a.top_mm},          {a.right_mm, y},
       {x, a.bottom_mm},         {a.left_mm, y},         {x, y}};
-  for (std::size_t i = 0; i < kCrosses.size(); ++i)
+  for (const auto i : each_index(kCrosses))
     drawing.crosses.push_back({std::string(1, kCrosses[i]), places[i]});
   for (const std::string_view ends : {"AB", "HF", "DC", "DA", "GE", "CB", "AC", "DB", "HE", "EF",
                                       "GF", "HG", "AM", "MB", "DM", "MC"}) {
@@ -54,7 +56,7 @@ TestDrawing planned_drawing(const SetPlotter& set) {
 tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
     const TestDrawing& drawing) {
   std::vector<observation::DrawnPoint> points;
-  for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
+  for (const auto i : each_index(drawing.crosses)) {
     const DrawnCross& cross = drawing.crosses[i];
     const auto lengths = model::paid_out(drawing.firmware, drawing.machine, cross.commanded);
     if (!lengths) return tl::unexpected(lengths.error().at(i));
@@ -65,7 +67,7 @@ tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
 
 std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing) {
   if (!drawing.longest_belt_mm) return std::nullopt;
-  for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
+  for (const auto i : each_index(drawing.crosses)) {
     const auto lengths =
         model::paid_out(drawing.firmware, drawing.machine, drawing.crosses[i].commanded);
     if (lengths && std::max(lengths->left_mm, lengths->right_mm) > *drawing.longest_belt_mm)
@@ -145,7 +147,7 @@ std::string measuring_list(const TestDrawing& drawing) {
       "string to the line at the cross between them.\nA bow is positive if the line is to the left "
       "as you go from the first cross to the last, so above the string for a line that runs to the "
       "right.\n\n";
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i)
+  for (const auto i : each_index(drawing.measures))
     text += fmt::format("{:2}. {:<28} ________ mm\n", i + 1, words_of(drawing, i));
   return text;
 }

@@ -120,7 +120,7 @@ std::vector<double> directions(const SetAndActual& machine, ToolPosition from, T
       machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
   if (!before || !after) return {};
   std::vector<double> ways;
-  for (Index i = 0; i < after->lengths_mm.size(); ++i)
+  for (const Index i : each_below(after->lengths_mm.size()))
     ways.push_back(after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0);
   return ways;
 }
@@ -130,7 +130,7 @@ AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& mac
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::vector<ToolPosition>& points = lines[k].points;
     std::vector<std::optional<ToolPosition>> drawn;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const auto i : each_index(points)) {
       MechanismVisit visit{.order = machine.first_visit + static_cast<int>(k)};
       // The first point is reached in the direction in which the line continues.
       const std::size_t to = std::max<std::size_t>(i, 1);
@@ -144,8 +144,8 @@ AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& mac
 
 double largest_shift(const std::vector<AtlasLine>& lines, const AtlasFrame& frame) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    for (std::size_t i = 0; i < lines[k].points.size(); ++i) {
+  for (const auto k : each_index(lines)) {
+    for (const auto i : each_index(lines[k].points)) {
       if (!frame.lines[k][i]) continue;
       const ToolPosition shift = minus(*frame.lines[k][i], lines[k].points[i]);
       largest = std::max(largest, std::hypot(shift.x_mm, shift.y_mm));
@@ -213,7 +213,7 @@ void add_settings(const Mechanism& mechanism, std::string_view cause,
                   const std::function<std::optional<SetAndActual>(Index, double)>& with_size,
                   Atlas& atlas) {
   const auto parameters = mechanism.parameters();
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
+  for (const auto k : each_index(parameters)) {
     if (!cause.empty() && cause != parameters[k].name) continue;
     const double usual = parameters[k].prior_sigma.value_or(model::kParameterShiftSigma);
     const double most = 2.0 * usual;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/synthetic/effect_picture.hpp"
 
+#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::synthetic {
@@ -26,11 +27,11 @@ ShiftedSquare square_at(const Machine& machine, const AppliedEffect& applied, Be
   }
   const std::vector<Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
   std::array<Vector2d, 4> cut;
-  for (std::size_t i = 0; i < cut.size(); ++i) {
+  for (const auto i : each_index(cut)) {
     square.corner_shift_mm[i] = shift[i];
     cut[i] = vector_of(visits[i].position) + shift[i];
   }
-  for (std::size_t i = 0; i < cut.size(); ++i)
+  for (const auto i : each_index(cut))
     square.side_mm[i] = (cut[(i + 1) % cut.size()] - cut[i]).norm();
   square.diagonal_mm = {(cut[2] - cut[0]).norm(), (cut[3] - cut[1]).norm()};
   return square;
@@ -51,7 +52,7 @@ EffectPicture picture_effect(const Machine& machine, const model::effects::Effec
   const StrengthTable table(machine, visits, noise);
   const std::vector<Vector2d> stated = signature(machine, {applied}, visits).tool_shift_mm();
   const std::vector<Vector2d> calibrated = table.calibrated_shift_mm(applied);
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     picture.marks.push_back(
         {model::identity_placement(visits[i].position), stated[i], calibrated[i]});
   }

@@ -65,7 +65,7 @@ std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, R
   std::vector<MarkPoint> session;
   Indices unrepeated;
   int done = 0;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (const auto i : each_index(marks)) {
     session.push_back(marks[i].place);
     unrepeated.push_back(i);
     while (done < repeats && (i + 1) * as_size(repeats) >= marks.size() * as_size(done + 1)) {
@@ -110,7 +110,7 @@ Indices miscounted(const Machine& machine, const std::vector<Visit>& visits) {
       return effect.parameters.at(std::string(parameter.name));
     };
     if (value(known->parameters.front()) == known->parameters.front().null) continue;
-    for (std::size_t i = 0; i < visits.size(); ++i) {
+    for (const auto i : each_index(visits)) {
       if (visits[i].order == value(known->parameters.back())) points.push_back(i);
     }
   }
@@ -134,7 +134,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
   const double position_step = step_of(noise.position_rounding_mm, noise.position_mm);
   const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
   std::vector<MeasuredPoint> points;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (const auto i : each_index(marks)) {
     MarkPoint mark = marks[i];
     mark.x_mm += draw(position_noise, noise, noise.position_mm);
     mark.y_mm += draw(position_noise, noise, noise.position_mm);
@@ -232,7 +232,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
     return tl::unexpected(lengths.error().at(answer.sheet.to_mark(place)));
   }
   answer.lengths = *lengths;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     for (const Side side : kSides)
       answer.lengths[i][side] += spec.unmodelled_mm * unmodelled(visits[i].position)[side];
   }
@@ -260,7 +260,7 @@ PlacesRead read_places(const Machine& stated, const std::vector<AppliedEffect>& 
   const ReadingModel reading_model(machine, model);
   const model::MarkFrame mark_frame(machine);
   std::vector<Visit> reached;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     const auto reading = reading_model.at(visits[i].position);
     if (reading) {
       reached.push_back(visits[i]);
@@ -270,7 +270,7 @@ PlacesRead read_places(const Machine& stated, const std::vector<AppliedEffect>& 
   }
   const auto lengths = model::readings(reading_model, reached, counting(progress, reached.size()));
   result.grid.machine = stated;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
+  for (const auto i : each_index(reached)) {
     result.grid.points.push_back(
         {mark_frame.written(model::identity_placement(reached[i].position)), lengths->at(i),
          std::nullopt, reached[i].order});

@@ -53,7 +53,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(const MeasuredHoles& des
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
   const ReadingModel model(made.truth);
   Random hole_noise(spec.seed, kHoleStream);
-  for (std::size_t i = 0; i < design.holes.size(); ++i) {
+  for (const auto i : each_index(design.holes)) {
     const auto reading = model.find(distances->places()[i].lengths, design.holes[i].commanded);
     if (!reading) {
       return failed(CutReason::unreachable,
@@ -71,7 +71,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(const MeasuredHoles& des
       observation::distance_geometry(design, made.places);
   const double tape = observation::tape_factor(made.truth);
   Random tape_noise(spec.seed, kTapeStream);
-  for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
+  for (const auto k : each_index(made.set.distances)) {
     HoleDistance& distance = made.set.distances[k];
     double reading = tape * geometry.predicted_mm[as_index(k)] + design.tape.tape_zero_offset_mm +
                      sigma_of(design, distance) * tape_noise.normal();

@@ -55,7 +55,7 @@ std::optional<BeltsUnreachable> add_pass(const BeltMachine& stated, const BeltMa
   const auto effects = model::effects::resolve(model::belts::belt_effects(), spec.hidden);
   const std::vector<BedPoint> commands = commands_of(stated, spec);
   const double over_least = pull ? pull->value / *min_element(spec.pulls) : 1.0;
-  for (std::size_t i = 0; i < commands.size(); ++i) {
+  for (const auto i : each_index(commands)) {
     const auto place = place_of(stated, truth, commands[i]);
     if (!place) return place.error().at(commands[i]);
     BeltPoint point;
@@ -84,7 +84,7 @@ void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
   Random random(spec.seed, kBadReadingStream);
   auto points = numbers_below(belts.points.size());
   random.shuffle(points);
-  for (std::size_t i = 0; i < as_size(spec.bad_readings); ++i) {
+  for (const std::size_t i : each_below(as_size(spec.bad_readings))) {
     const Belt belt = kBelts[random.below(kBelts.size())];
     const double sign = random.below(2) == 0 ? 1.0 : -1.0;
     belts.points[points[i]].lengths_mm[belt] += sign * spec.bad_size_mm;

@@ -45,7 +45,7 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
 
 std::vector<Vector2d> SessionSignature::tool_shift_mm() const {
   std::vector<Vector2d> shift;
-  for (std::size_t i = 0; i < residual_mm.size(); ++i) {
+  for (const auto i : each_index(residual_mm)) {
     shift.emplace_back(-length_by_xy[i].inverse() * residual_mm[i]);
   }
   return shift;
@@ -61,7 +61,7 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
   const std::vector<ChainLengths> before = lengths_of(stated, visits);
   const std::vector<ChainLengths> after = lengths_of(true_machine, visits);
   SessionSignature result;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     const auto reading = plain.at(visits[i].position);
     if (!reading) {
       throw precondition("signature: visit {}: {}", i, reading.error().sentence());
@@ -88,7 +88,7 @@ StrengthTable::StrengthTable(const Machine& stated, std::vector<model::Visit> vi
   const auto settings = std::ssize(kMachineSettings);
   MatrixXd by_setting = MatrixXd::Zero(2 * count + settings, settings);
   const ReadingModel model(stated);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const auto reading = model.at(visits_[as_size(i)].position);
     if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
     const Matrix2d& j = reading->position_jacobian;
@@ -96,12 +96,12 @@ StrengthTable::StrengthTable(const Machine& stated, std::vector<model::Visit> vi
                                 Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
     length_by_xy_.push_back(j);
     whitening_.emplace_back(estimation::unit_whitening(covariance));
-    for (Index k = 0; k < settings; ++k) {
+    for (const Index k : each_below(settings)) {
       by_setting.block<2, 1>(2 * i, k) =
           whitening_.back() * model.sensitivity(*reading, kMachineSettings[as_size(k)]);
     }
   }
-  for (Index k = 0; k < settings; ++k) {
+  for (const Index k : each_below(settings)) {
     by_setting(2 * count + k, k) =
         1.0 / std::max(kKnownSigma, model::stated_sigma(stated, kMachineSettings[as_size(k)]));
   }
@@ -154,7 +154,7 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
 std::vector<Vector2d> StrengthTable::calibrated_shift_mm(const AppliedEffect& applied) const {
   const VectorXd left = entry(applied).left;
   std::vector<Vector2d> shift;
-  for (std::size_t i = 0; i < visits_.size(); ++i) {
+  for (const auto i : each_index(visits_)) {
     const Vector2d pair = left.segment<2>(2 * as_index(i));
     shift.emplace_back(-length_by_xy_[i].inverse() * (whitening_[i].inverse() * pair));
   }
@@ -165,7 +165,7 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
                                                               std::size_t visits) {
   constexpr int kSteps = 12;
   std::vector<std::vector<double>> choices = {model::effects::nominal_values(effect)};
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+  for (const auto i : each_index(effect.parameters)) {
     const EffectParameter& parameter = effect.parameters[i];
     if (parameter.role != model::effects::ParameterRole::place) continue;
     const bool counts_visits = parameter.integer;
@@ -208,7 +208,7 @@ StrengthTable::Entry StrengthTable::entry(const AppliedEffect& applied) const {
   Entry result{};
   const std::vector<Vector2d> residual_mm = signature(stated_, {applied}, visits_).residual_mm;
   VectorXd g = VectorXd::Zero(settings_basis_.rows());
-  for (std::size_t i = 0; i < visits_.size(); ++i)
+  for (const auto i : each_index(visits_))
     g.segment<2>(2 * as_index(i)) = whitening_[i] * residual_mm[i];
   result.norm = g.norm();
   result.left = g - settings_basis_ * (settings_basis_.transpose() * g);
