@@ -201,8 +201,7 @@ Downdating::Without Downdating::without(const Indices& units) const {
     const ModelWithout& own = all.models[k];
     if (own.same != k || !std::isfinite(own.log_weight)) continue;
     comparison.models.push_back({own.model->regressors, own.model->discrepancy, own.home,
-                                 own.log_weight, own.evidence.larger_noise,
-                                 own.evidence.quadratic});
+                                 own.log_weight, own.evidence.larger_noise});
   }
   sort_by_weight(comparison);
   for (const auto& [score, marginalised] : all.strongest) {

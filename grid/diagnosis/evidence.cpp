@@ -276,8 +276,8 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
   const double determinant = invert(a);
   const FewValues ratio = a.lazyProduct(free.c);
   SetEvidence result;
-  result.quadratic = std::max(free.ee - free.c.dot(ratio), 0.0);
-  const NoiseDensity::Averages averages = noise.averages(result.quadratic);
+  const NoiseDensity::Averages averages =
+      noise.averages(std::max(free.ee - free.c.dot(ratio), 0.0));
   result.larger_noise = averages.larger_share;
   result.log_evidence =
       averages.log_density - 0.5 * log_det - 0.5 * std::log(determinant * prior.cwiseAbs2().prod());
@@ -305,7 +305,7 @@ SetEvidence set_evidence(const NormalEquations& equations, const std::vector<Reg
                          std::span<const Index> set, const NoiseDensity& noise) {
   const FreeEquations free = free_equations(equations, regressors, set);
   // If the kept rows do not depend on a cause they give no evidence for it.
-  if (free.is_empty_column) return {kMinusInfinity, 0.0, 0.0};
+  if (free.is_empty_column) return {kMinusInfinity, 0.0};
   SetEvidence wide = evidence_at(free, equations.log_det, noise, kWideSignalToNoise);
   if (free.c.size() == 0) return wide;
   const SetEvidence usual = evidence_at(free, equations.log_det, noise, kUsualSignalToNoise);

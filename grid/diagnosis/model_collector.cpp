@@ -69,7 +69,6 @@ double ModelCollector::consider(const ColumnSet& set, int discrepancy,
   model.marginalised = number_;
   model.log_weight = evidence.log_evidence + log_prior_of(model.regressors, discrepancy);
   model.larger_noise = evidence.larger_noise;
-  model.quadratic = evidence.quadratic;
   best_ = std::max(best_, model.log_weight);
   const double weight = model.log_weight;
   if (keeps(set.size(), discrepancy, weight)) models_.push_back(std::move(model));
