@@ -17,6 +17,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #include "grid/precondition.hpp"
@@ -30,11 +31,14 @@ using Rows = std::vector<Index>;
 using ColumnSet = std::vector<Index>;
 using Flags = std::vector<bool>;
 
-constexpr std::size_t as_size(std::integral auto position) {
+/// A whole number, or an enumerator by its place in the list of its enumeration.
+template <class T>
+concept Countable = std::integral<T> || std::is_enum_v<T>;
+constexpr std::size_t as_size(Countable auto position) {
   return static_cast<std::size_t>(position);
 }
-constexpr Index as_index(std::integral auto position) { return static_cast<Index>(position); }
-
+constexpr Index as_index(Countable auto position) { return static_cast<Index>(position); }
+constexpr int as_int(Countable auto count) { return static_cast<int>(count); }
 constexpr double as_double(std::integral auto count) { return static_cast<double>(count); }
 
 template <class Container, class Value>

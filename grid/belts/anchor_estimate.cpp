@@ -39,8 +39,7 @@ bool is_upright_frame(const AnchorVector& a) {
 /// The end of a taped distance, for any mechanism.
 observation::TapeEnd end_of(const BeltMachine& machine, const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
-  if (const auto* belt = std::get_if<Belt>(&end))
-    return observation::AtFixedPoint{static_cast<std::size_t>(*belt)};
+  if (const auto* belt = std::get_if<Belt>(&end)) return observation::AtFixedPoint{as_size(*belt)};
   return hole_at(machine, std::get<CutHole>(end).commanded);
 }
 
@@ -205,7 +204,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
     place.lengths_mm.resize(std::ssize(kBelts));
     const bool all_count = readings_counting(counting.at(k)) == 4;
     for (const Belt belt : kBelts) {
-      place.lengths_mm[static_cast<Index>(belt)] = point.lengths_mm[belt];
+      place.lengths_mm[as_index(belt)] = point.lengths_mm[belt];
       if (!all_count) place.counting.push_back(counting[k][belt]);
       place.visit.pulled.push_back(is_pulled(point, belt));
     }

@@ -49,9 +49,7 @@ AnchorVector anchors_of(const BeltMachine& machine);
 [[nodiscard]] BeltMachine with_anchors(BeltMachine machine, const AnchorVector& a);
 
 /// The row of a point's belt among all.
-inline Index row_of(std::size_t point, Belt belt) {
-  return 4 * as_index(point) + static_cast<Index>(belt);
-}
+inline Index row_of(std::size_t point, Belt belt) { return 4 * as_index(point) + as_index(belt); }
 inline int readings_counting(const PerBelt<bool>& counting) {
   return counting.tl + counting.tr + counting.bl + counting.br;
 }

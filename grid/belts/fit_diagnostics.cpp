@@ -157,7 +157,7 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
   for (const auto k : each_index(belts.points)) {
     for (const Belt belt : kBelts) {
       if (!view.counts(k, belt)) continue;
-      squares.col(static_cast<Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
+      squares.col(as_index(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
     }
   }
   for (const auto i : each_index(fit.coordinates)) {
@@ -168,8 +168,7 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
     coordinate.fitted_mm = fitted[row];
     coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
     for (const Belt belt : kBelts) {
-      coordinate.variance_share[belt] =
-          squares(row, static_cast<Index>(belt)) / squares.row(row).sum();
+      coordinate.variance_share[belt] = squares(row, as_index(belt)) / squares.row(row).sum();
     }
   }
 }
@@ -256,8 +255,7 @@ BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnosti
 Indices in_order(const MeasuredBelts& belts) {
   auto order = numbers_below(belts.points.size());
   stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return belts.points[a].order.value_or(static_cast<int>(a)) <
-           belts.points[b].order.value_or(static_cast<int>(b));
+    return belts.points[a].order.value_or(as_int(a)) < belts.points[b].order.value_or(as_int(b));
   });
   return order;
 }
@@ -270,7 +268,7 @@ BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
   fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
   fit.residual_sigma_mm = view.frame().residual_sigma_mm;
-  fit.checks = static_cast<int>(view.frame().checks);
+  fit.checks = as_int(view.frame().checks);
   fill_coordinates(belts, view, fit);
   fill_places(belts, view, fit);
   fill_scale(belts, view, covariance, fit);

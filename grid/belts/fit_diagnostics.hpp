@@ -101,7 +101,7 @@ class FitDiagnostics {
     /// X' w A, and the gradient X' w r.
     MatrixXd precision() const {
       const MatrixXd weighed = line.weight.asDiagonal() * line.by_parameter;
-      return linear::product(linear::transposed(left), weighed);
+      return linear::inner(left, weighed);
     }
     VectorXd gradient() const {
       return left.transpose() * line.weight.cwiseProduct(line.residual_mm);
@@ -111,7 +111,7 @@ class FitDiagnostics {
   struct Slot {
     std::size_t block = 0;
     Index place = 0;
-    Index row(Belt belt) const { return 4 * place + static_cast<Index>(belt); }
+    Index row(Belt belt) const { return 4 * place + as_index(belt); }
   };
 
   AnchorFit frame_;

@@ -20,7 +20,7 @@ constexpr double kWholeMm = 10.0;
 /// The outermost points of the file in each direction, each once.
 Indices outermost(const BeltsFit& fit) {
   Indices points;
-  for (int i = 0; i < kDirections; ++i) {
+  for (const int i : each_below(kDirections)) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
     const auto along = [&](const FittedPlace& place) {
       return std::cos(angle) * place.at.x_mm + std::sin(angle) * place.at.y_mm;

@@ -327,8 +327,7 @@ Nearest nearest_other(const Analysis& a, int column) {
     const double collinearity = collinearity_of(products(at), own.norm() * std::sqrt(squares(at)));
     // Among columns that differ only by rounding the first wins, on any processor.
     constexpr double kRounding = 1e-9;
-    if (collinearity > nearest.collinearity + kRounding)
-      nearest = {static_cast<int>(k), collinearity};
+    if (collinearity > nearest.collinearity + kRounding) nearest = {as_int(k), collinearity};
   }
   return nearest;
 }

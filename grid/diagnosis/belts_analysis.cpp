@@ -154,7 +154,7 @@ belts::Counting decided_counting(const Analysis& a) {
   belts::Counting counting(a.system.places.size());
   for (const auto u : each_index(counting)) {
     for (const Belt belt : kBelts) {
-      counting[a.system.places[u].place][belt] = !rejected[4 * u + static_cast<std::size_t>(belt)];
+      counting[a.system.places[u].place][belt] = !rejected[4 * u + as_size(belt)];
     }
   }
   return counting;

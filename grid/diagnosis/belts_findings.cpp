@@ -130,7 +130,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
     found.places.push_back(place);
   }
   const auto values = std::ssize(a.estimate.free);
-  found.checks = static_cast<int>(std::max<Index>(frame.checks - values, 1));
+  found.checks = as_int(std::max<Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
   found.prediction_before = a.before.half_left_out;
   found.prediction = prediction_by_halves(a.belts, frame, given.causes);

@@ -86,8 +86,7 @@ VectorXd least_squares(const FitGivenCauses& given, const MatrixXd& columns) {
     design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
         unit.by_reading * columns.middleRows<4>(belts::row_of(set.units[u].index, Belt::tl));
   }
-  return linear::least_squares(linear::gram(design),
-                               linear::product(linear::transposed(design), system.e));
+  return linear::least_squares(linear::gram(design), linear::inner(design, system.e));
 }
 
 }  // namespace
@@ -156,7 +155,7 @@ std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
   };
   take_out();
   const std::vector<FreeValue> free = free_values(given.causes);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (const int round : each_below(kMostRounds)) {
     auto frame = belts::fit_anchors_from(given.belts, given.frame.state, given.frame.counting);
     if (!frame) return std::nullopt;
     given.frame = *std::move(frame);

@@ -116,7 +116,7 @@ std::vector<Regressor> tried_of(const CauseId& cause, const SizedCause* found,
         own.values[1] = found->values[1];
         add(true, 1.0 / (kWays + 1));
       }
-      for (int way = 0; way < kWays; ++way) {
+      for (const int way : each_below(kWays)) {
         own.values[1] =
             std::remainder(2.0 * std::numbers::pi * way / kWays, 2.0 * std::numbers::pi);
         add(false, 1.0 / kWays);

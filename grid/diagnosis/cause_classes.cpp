@@ -26,10 +26,10 @@ std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& syst
     if (!(square(at) > 1e-8)) continue;
     const double score = std::abs(c(at)) / std::sqrt(square(at));
     if (result.empty() || result.back().first != system.regressors[k].cause) {
-      result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
+      result.emplace_back(system.regressors[k].cause, as_int(k));
       best = score;
     } else if (score > best) {
-      result.back().second = static_cast<int>(k);
+      result.back().second = as_int(k);
       best = score;
     }
   }
@@ -153,8 +153,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
                        reduced(marginalised, system.g.col(column)), cause,
                        system.regressor(column).fixed};
     const double whole = own.free.norm();
-    linear::add_product(own.free, -1.0, basis,
-                        linear::product(linear::transposed(basis), own.free));
+    linear::add_product(own.free, -1.0, basis, linear::inner(basis, own.free));
     // If the settings absorb a signature, only rounding would be compared.
     const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();

@@ -338,7 +338,7 @@ std::vector<AppliedEffect> applied_over_places(const Cause& cause) {
   // A ninth of a gap between marks: less than a surface of these marks can show.
   constexpr int kPlaces = 9;
   std::vector<AppliedEffect> effects;
-  for (int k = 0; k < kPlaces; ++k) {
+  for (const int k : each_below(kPlaces)) {
     const double off = std::sqrt(3.0) * place->sigma * ((2.0 * k + 1.0) / kPlaces - 1.0);
     effects.push_back(applied_at(cause, *place, off, 1.0 / kPlaces));
   }

@@ -17,7 +17,7 @@ VectorXd CovarianceRoot::change(double exponent) const {
 }
 
 void CovarianceRoot::add_change(Eigen::Ref<MatrixXd> m) const {
-  MatrixXd along = linear::product(linear::transposed(basis_), m);
+  MatrixXd along = linear::inner(basis_, m);
   const VectorXd own = change(-0.5);
   for (const Index k : each_below(along.cols())) along.col(k).array() *= own.array();
   linear::add_product(m, 1.0, basis_, along);

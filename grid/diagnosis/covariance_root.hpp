@@ -62,7 +62,7 @@ class LowRankNoise {
   linear::Like<X> half_solve(const X& x) const {
     linear::Like<X> result = linear::Like<X>::Zero(x.rows() + a_.cols(), x.cols());
     result.topRows(x.rows()) = x;
-    result.bottomRows(a_.cols()) = -normal_.solve(linear::product(linear::transposed(a_), x));
+    result.bottomRows(a_.cols()) = -normal_.solve(linear::inner(a_, x));
     linear::add_product(result.topRows(x.rows()), 1.0, a_, result.bottomRows(a_.cols()));
     return result;
   }

@@ -33,12 +33,12 @@ std::string_view name(Verdict verdict) {
   constexpr std::string_view kNames[] = {
       "named",      "named_set",    "several_causes", "unknown_pattern", "noise_larger_than_stated",
       "bad_points", "nothing_found"};
-  return kNames[static_cast<std::size_t>(verdict)];
+  return kNames[as_size(verdict)];
 }
 
 std::string_view name(Observations observations) {
   constexpr std::string_view kNames[] = {"points", "distances", "readings", "belts", "measures"};
-  return kNames[static_cast<std::size_t>(observations)];
+  return kNames[as_size(observations)];
 }
 
 namespace {
@@ -182,7 +182,7 @@ void count_law(Diagnosis& d) {
 
 std::string_view name(DeclaredAnswer::Says says) {
   constexpr std::string_view kNames[] = {"confirmed", "denied", "open", "not_testable"};
-  return kNames[static_cast<std::size_t>(says)];
+  return kNames[as_size(says)];
 }
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,

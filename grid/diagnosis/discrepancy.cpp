@@ -290,7 +290,7 @@ class Kernels {
 
  private:
   static void at_any_ratio(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
-    for (int k = 0; k < kDirections; ++k) {
+    for (const int k : each_below(kDirections)) {
       field.direction_rad = std::numbers::pi * k / kDirections;
       group.push_back(field);
     }

@@ -49,8 +49,8 @@ MatrixXd gram(const Block& a, const Block& b) {
            a.s * b.s * p.gram22;
   }
   const Products& q = *b.products;
-  return linear::product(linear::transposed(MatrixXd(a.c * p.parts.first + a.s * p.parts.second)),
-                         MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
+  return linear::inner(MatrixXd(a.c * p.parts.first + a.s * p.parts.second),
+                       MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
 }
 
 }  // namespace
@@ -104,14 +104,13 @@ class DiscrepancyBasis::Fields {
     p.field = field;
     p.parts = std::move(parts);
     p.gram11 = linear::gram(p.parts.first);
-    p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
+    p.gram12 = linear::inner(p.parts.first, p.parts.second);
     p.gram22 = linear::gram(p.parts.second);
     return p;
   }
 
   static std::pair<MatrixXd, MatrixXd> products_with(const Products& products, const MatrixXd& e) {
-    return {linear::product(linear::transposed(products.parts.first), e),
-            linear::product(linear::transposed(products.parts.second), e)};
+    return {linear::inner(products.parts.first, e), linear::inner(products.parts.second, e)};
   }
 
   const RegressorSystem& system_;

@@ -16,12 +16,12 @@ namespace chaintrue::grid::diagnosis {
 std::string_view name(BudgetLine::What what) {
   constexpr std::string_view kNames[] = {"settings", "cause", "unexplained", "noise",
                                          "inseparable"};
-  return kNames[static_cast<std::size_t>(what)];
+  return kNames[as_size(what)];
 }
 
 std::string_view name(BudgetLine::ChangesWith changes) {
   constexpr std::string_view kNames[] = {"nothing", "place", "order", "direction"};
-  return kNames[static_cast<std::size_t>(changes)];
+  return kNames[as_size(changes)];
 }
 
 namespace {

@@ -24,7 +24,7 @@ Solution solve(const Unknowns& unknowns, const VectorXd& settings, VectorXd data
   // Scaled by the priors the normal equations are well conditioned: I + S A'A S.
   const MatrixXd scaled = linear::scaled_columns(design, unknowns.sigma);
   const linear::Cholesky normal(linear::one_plus_gram(scaled));
-  const VectorXd x = normal.solve(linear::product(linear::transposed(scaled), data));
+  const VectorXd x = normal.solve(linear::inner(scaled, data));
   return {mean + unknowns.sigma.cwiseProduct(x),
           unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }

@@ -108,8 +108,8 @@ double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
 VectorXd left_by(const KeptRows& kept, const MatrixXd& columns, const VectorXd& sigma,
                  VectorXd rows) {
   const MatrixXd scaled = linear::scaled_columns(kept(columns), sigma);
-  const VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
-                         .solve(linear::product(linear::transposed(scaled), kept(rows)));
+  const VectorXd x =
+      linear::Cholesky(linear::one_plus_gram(scaled)).solve(linear::inner(scaled, kept(rows)));
   linear::add_product(rows, -1.0, columns, sigma.cwiseProduct(x));
   return rows;
 }
@@ -152,7 +152,7 @@ NormalEquations normal_equations(const std::vector<Regressor>& regressors,
   equations.rows.resize(g.rows(), 1 + g.cols());
   equations.rows << marginalised.e, g;
   equations.ee = marginalised.e.squaredNorm();
-  equations.ge = linear::product(linear::transposed(g), marginalised.e);
+  equations.ge = linear::inner(g, marginalised.e);
   equations.gg = linear::gram(g);
   equations.prior_square = prior_squares(regressors, columns, equations.gg.diagonal());
   equations.columns = std::move(columns);

@@ -191,7 +191,7 @@ double chance_of_all(const std::vector<Rival>& rivals) {
   constexpr int kSteps = 32;
   double chance = 0.0;
   double all = 0.0;
-  for (int step = 0; step < kSteps; ++step) {
+  for (const int step : each_below(kSteps)) {
     const double z = kWidest * ((2.0 * step + 1.0) / kSteps - 1.0);
     const double density = std::exp(-0.5 * z * z);
     all += density;

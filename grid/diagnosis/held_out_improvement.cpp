@@ -306,7 +306,7 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   const auto& [units, number, all, agree] = folds;
   if (units.empty()) return std::nullopt;
   HeldOutImprovement improvement;
-  improvement.folds = static_cast<int>(blocks.units.size());
+  improvement.folds = as_int(blocks.units.size());
   improvement.folds_agree = agree;
   const std::uint64_t seed = a.options.seed;
   measure_before_calibration(a, units, number, improvement);

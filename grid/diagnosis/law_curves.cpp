@@ -114,14 +114,14 @@ class CurveList {
 
   StepPlaces kink_places() const {
     std::vector<double> grid;
-    for (int k = 0; k < kKinkPlaces; ++k)
+    for (const int k : each_below(kKinkPlaces))
       grid.push_back(start_.from + (k + 0.5) / kKinkPlaces * start_.span());
     return evenly(std::move(grid));
   }
 
   StepPlaces scales() const {
     std::vector<double> grid;
-    for (int k = 0; k < kScales; ++k)
+    for (const int k : each_below(kScales))
       grid.push_back(kShortestScale * std::pow(kScaleFactor, k) * start_.span());
     return evenly(std::move(grid));
   }
@@ -250,7 +250,7 @@ StepPlaces step_places(const std::vector<double>& values, double from, double to
   StepPlaces places;
   std::ptrdiff_t last = -1;
   int first = 0;  // of those between the same two values
-  for (int k = 0; k < kStepPlaces; ++k) {
+  for (const int k : each_below(kStepPlaces)) {
     const auto below = std::lower_bound(values.begin(), values.end(), place(k)) - values.begin();
     if (below != last) {
       places.at.emplace_back();
@@ -344,7 +344,7 @@ std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,
     const SystemPlace& place = system.places[own.place];
     if (const auto belt = belt_of(term.enters)) {
       all.push_back({value_at(place, term.of, term.direction_rad),
-                     system.units[unit].by_reading.col(static_cast<Index>(*belt))});
+                     system.units[unit].by_reading.col(as_index(*belt))});
       continue;
     }
     for (const auto& [v, chains_mm] : chains_at(place, term))

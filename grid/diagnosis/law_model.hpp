@@ -57,8 +57,7 @@ class LawModel {
     Left left;
     left.noise = marginalised_.root.solve(LowRankNoise(reduced_).solve(left_by(known)));
     left.unexplained = left.noise;
-    linear::add_product(left.unexplained, 1.0, pattern_,
-                        linear::product(linear::transposed(pattern_), left.noise));
+    linear::add_product(left.unexplained, 1.0, pattern_, linear::inner(pattern_, left.noise));
     return left;
   }
 

@@ -49,7 +49,7 @@ class LawSystem {
     for (const RegressorSet& set : sets) {
       RegressorSet& own = sets_.emplace_back();
       for (const int k : set) {
-        own.push_back(static_cast<int>(all.size()));
+        own.push_back(as_int(all.size()));
         all.push_back(k);
         own_.regressors.push_back(a.system.regressor(k));
       }

@@ -84,7 +84,7 @@ std::string variable_in_words(const Law& law) {
       "the top right belt's angle against the horizontal",
       "the bottom left belt's angle against the horizontal",
       "the bottom right belt's angle against the horizontal"};  // by Coordinate
-  return fmt::format(fmt::runtime(kVariables[static_cast<std::size_t>(law.of)]),
+  return fmt::format(fmt::runtime(kVariables[as_size(law.of)]),
                      fmt::arg("anchor", belt_of(law.enters) ? " from the bottom left anchor" : ""),
                      fmt::arg("direction", law.direction_deg));
 }
@@ -104,8 +104,7 @@ std::string form_in_words(const Law& law) {
                                          "an exponential",
                                          "a wave",
                                          "a wave with its second harmonic"};
-  return fmt::format("{} over {}", kForms[static_cast<std::size_t>(law.shape)],
-                     variable_in_words(law));
+  return fmt::format("{} over {}", kForms[as_size(law.shape)], variable_in_words(law));
 }
 
 std::string in_words(const Law& law) {
@@ -123,7 +122,7 @@ std::string in_words(const Law& law) {
   const auto words_of = [&](std::size_t k, double factor) {
     return k < law.parameters.size() ? number_words(law.parameters[k], factor) : "";
   };
-  return fmt::format(fmt::runtime(kSentences[static_cast<std::size_t>(law.shape)]),
+  return fmt::format(fmt::runtime(kSentences[as_size(law.shape)]),
                      fmt::arg("size", words_of(0, 1.0)), fmt::arg("second", words_of(3, 1.0)),
                      fmt::arg("slope", words_of(0, unit.slope_factor / (law.to - law.from))),
                      fmt::arg("per", unit.slope_words), fmt::arg("at", words_of(1, unit.factor)),
@@ -131,7 +130,7 @@ std::string in_words(const Law& law) {
                      fmt::arg("side", law.towards > 0 ? "beyond" : "below"),
                      fmt::arg("end", law.towards > 0 ? "largest" : "least"),
                      fmt::arg("variable", variable_in_words(law)),
-                     fmt::arg("entrance", kEntrances[static_cast<std::size_t>(law.enters)]));
+                     fmt::arg("entrance", kEntrances[as_size(law.enters)]));
 }
 
 std::string given_law_words(const Diagnosis& d) {
@@ -225,7 +224,7 @@ std::string variable_of(const Law& law, const Bed& bed) {
                                              "T",
                                              "n"};  // by Coordinate, of chains
   const double direction = law.direction_deg * std::numbers::pi / 180.0;
-  return fmt::format(fmt::runtime(kVariables[static_cast<std::size_t>(law.of)]),
+  return fmt::format(fmt::runtime(kVariables[as_size(law.of)]),
                      fmt::arg("cos", std::cos(direction)), fmt::arg("sin", std::sin(direction)),
                      fmt::arg("right", 0.5 * bed.width_mm), fmt::arg("top", 0.5 * bed.height_mm));
 }

@@ -102,7 +102,7 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
     }
     const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
-    equations.columns = {static_cast<int>(k)};
+    equations.columns = {as_int(k)};
     equations.ge = c.segment<1>(at);
     equations.gg = equations.prior_square = square.segment<1>(at);
     const double factor =
@@ -110,7 +110,7 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
     scores.back().log_factor = log_sum(scores.back().log_factor, factor);
     if (factor > best) {
       best = factor;
-      scores.back().best_regressor = static_cast<int>(k);
+      scores.back().best_regressor = as_int(k);
     }
   }
   return scores;

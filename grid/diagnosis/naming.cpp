@@ -61,7 +61,7 @@ tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& o
                                                      const Measured& measured,
                                                      DiagnosisOptions options) {
   options.order_assumed = true;
-  options.orders_tried = static_cast<int>(line_by_line_orders().size());
+  options.orders_tried = as_int(line_by_line_orders().size());
   auto session = diagnosis::observations_of(visited_in(measured, order.order).value());
   if (!session) return tl::unexpected(session.error());
   return analyse(*std::move(session), options);

@@ -54,7 +54,7 @@ class SingleScore {
     // Thousands of draws: only products with distinct columns are stored.
     const RegressorColumns& g = system_.g;
     const MatrixXd rows = marginalised_.kept.spread(marginalised_.root.solve(e));
-    const MatrixXd c = linear::product(linear::transposed(g.distinct()), rows);
+    const MatrixXd c = linear::inner(g.distinct(), rows);
     const auto n = as_double(e.rows());
     VectorXd result = VectorXd::Constant(e.cols(), kNoScore);
     for (const Index draw : each_below(e.cols())) {

@@ -155,10 +155,9 @@ OrderColumns order_columns(const Analysis& a, const Measured& ordered) {
 double log_order_factor(const OrderColumns& order, const GivenModel& model, double noise_dof) {
   const MatrixXd g = model.noise.half_solve(reduced(model.marginalised, order.columns));
   double sum = kMinusInfinity;
-  for (const CauseScore& own :
-       single_scores(order.regressors, linear::product(linear::transposed(g), model.e),
-                     g.colwise().squaredNorm(), model.e.squaredNorm(),
-                     NoiseDensity(noise_dof, model.marginalised.kept.size())))
+  for (const CauseScore& own : single_scores(
+           order.regressors, linear::inner(g, model.e), g.colwise().squaredNorm(),
+           model.e.squaredNorm(), NoiseDensity(noise_dof, model.marginalised.kept.size())))
     sum = log_sum(sum, own.log_factor);
   return sum + model.log_odds;
 }

@@ -75,7 +75,7 @@ class MeanShifts {
   /// Removes one regressor of free size, with the prior precision of its coefficient.
   void free(const VectorXd& g, double prior) {
     VectorXd pg = g;
-    linear::add_product(pg, -1.0, taken(), linear::product(linear::transposed(taken()), g));
+    linear::add_product(pg, -1.0, taken(), linear::inner(taken(), g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
     quadratic_ -= ug * ug / denominator;
@@ -103,7 +103,7 @@ class MeanShifts {
     const MatrixXd own = taken().middleRows(group.at, group.rows);
     MatrixXd columns = MatrixXd::Zero(u_.size(), d.cols());  // P D
     columns.middleRows(group.at, group.rows) = d;
-    linear::add_product(columns, -1.0, taken(), linear::product(linear::transposed(own), d));
+    linear::add_product(columns, -1.0, taken(), linear::inner(own, d));
     const linear::Cholesky block(d.transpose() * columns.middleRows(group.at, group.rows));
     const VectorXd along = d.transpose() * u_.segment(group.at, group.rows);
     quadratic_ -= drop;

@@ -89,7 +89,7 @@ std::vector<double> evenly_by_rank(std::vector<double> there) {
   std::vector<double> result;
   sort(there);
   const auto last = as_double(there.size() - 1);
-  for (int k = 0; k < kPlaces; ++k) {
+  for (const int k : each_below(kPlaces)) {
     const double at = last * k / kPlaces;
     const auto below = static_cast<std::size_t>(at);
     result.push_back(there[below] + (at - std::floor(at)) * (there[below + 1] - there[below]));
@@ -136,14 +136,14 @@ std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId caus
   }
   const PlaceVariable variable = variable_of_place(*cause.effect, place);
   if (variable == PlaceVariable::phase) {
-    for (int k = 0; k < kPlaces; ++k) {
+    for (const int k : each_below(kPlaces)) {
       const double at = 2.0 * std::numbers::pi * k / kPlaces;
       result.push_back(at > place.upper ? at - 2.0 * std::numbers::pi : at);
     }
     return result;
   }
   if (variable == PlaceVariable::none) {
-    for (int k = 0; k < kPlaces; ++k)
+    for (const int k : each_below(kPlaces))
       result.push_back(place.lower + (place.upper - place.lower) * (k + 0.5) / kPlaces);
     return result;
   }

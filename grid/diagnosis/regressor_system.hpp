@@ -104,7 +104,7 @@ class RegressorColumns {
   /// cols() x columns of m: inner products of every column with those of a matrix, or with a vector.
   template <class M>
   linear::Like<M> transpose_times(const M& m) const {
-    const linear::Like<M> products = linear::product(linear::transposed(distinct()), m);
+    const linear::Like<M> products = linear::inner(distinct(), m);
     linear::Like<M> result(cols(), m.cols());
     for (const Index column : each_below(m.cols())) {
       for (const Index k : each_below(cols()))

@@ -129,8 +129,7 @@ class Round {
     const auto without = [gram = linear::PivotedCholesky(linear::gram(others)),
                           others](VectorXd v) {
       if (others.cols() > 0) {
-        linear::add_product(v, -1.0, others,
-                            gram.solve(linear::product(linear::transposed(others), v)));
+        linear::add_product(v, -1.0, others, gram.solve(linear::inner(others, v)));
       }
       return v;
     };

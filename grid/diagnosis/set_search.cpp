@@ -18,7 +18,7 @@ constexpr std::size_t kTakenOut = 3;
 /// Adds the places of each cause that explain most of `e`.
 void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& e,
               std::size_t of_a_cause, std::set<int>& chosen) {
-  const VectorXd c = linear::product(linear::transposed(g), e);
+  const VectorXd c = linear::inner(g, e);
   const VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
   const auto take = [&] {
@@ -32,7 +32,7 @@ void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& 
     if (k > 0 && own.cause != system.regressors[k - 1].cause) take();
     const auto at = as_index(k);
     if (!(square(at) > kLeastSquare)) continue;
-    scores.emplace_back(score_alone(own, c(at), square(at)), static_cast<int>(k));
+    scores.emplace_back(score_alone(own, c(at), square(at)), as_int(k));
   }
   take();
 }
@@ -61,7 +61,7 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
     taken.push_back(cause);
     const VectorXd own = all.col(k).normalized();
     MatrixXd g = all;
-    const VectorXd along = linear::product(linear::transposed(all), own);
+    const VectorXd along = linear::inner(all, own);
     for (const Index column : each_below(g.cols())) g.col(column) -= along[column] * own;
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
@@ -129,7 +129,7 @@ RegressorSet SetSearch::columns() const {
   RegressorSet kept;
   RegressorSet fixed;
   RegressorSet shifts;
-  const auto count = static_cast<int>(system_.regressors.size());
+  const auto count = as_int(system_.regressors.size());
   const VectorXd c = with_regressors(system_, marginalised_, marginalised_.e);
   const VectorXd square = squared_lengths(system_, marginalised_);
   for (int k = 0; k < count; ++k) {

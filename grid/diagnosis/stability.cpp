@@ -242,7 +242,7 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
     tried.push_back(fmt::format("{} {}", all.size(), all.size() == 1 ? kind.one : kind.many));
   }
   const auto weakest = min_element(stability.removals, ascending(&Removal::probability));
-  const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
+  const Kind& kind = kKinds[as_size(weakest->what)];
   const std::string which = joined(tried, "and", ", ");
   const std::string text =
       changes == 0 ? fmt::format("Leaving out any of {} does not change the answer.", which)

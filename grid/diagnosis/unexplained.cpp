@@ -16,7 +16,7 @@ std::string_view name(Enters enters) {
   constexpr std::string_view kNames[] = {"left", "right", "alike", "opposite", "x",
                                          "y",    "mixed", "along", "outwards", "tl",
                                          "tr",   "bl",    "br"};
-  return kNames[static_cast<std::size_t>(enters)];
+  return kNames[as_size(enters)];
 }
 
 namespace {
@@ -184,8 +184,7 @@ double p_of_structure(const Analysis& a) {
   const MatrixXd factor =
       discrepancy_factor(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
   const MatrixXd weighed = nuisance_noise(a.system, kept).solve(e);
-  const ArrayXd in_common =
-      linear::product(linear::transposed(factor), weighed).colwise().squaredNorm();
+  const ArrayXd in_common = linear::inner(factor, weighed).colwise().squaredNorm();
   const ArrayXd all = (e.array() * weighed.array()).colwise().sum();
   const ArrayXd share = in_common / all.max(1e-300);
   const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();

@@ -33,7 +33,7 @@ constexpr Vocabulary kVocabularies[] = {
     {"measures", "measures", "", "Readings", "These measures cannot", "Also", "machine"}};
 
 const Vocabulary& vocabulary_of(const Diagnosis& d) {
-  return kVocabularies[static_cast<std::size_t>(d.observations)];
+  return kVocabularies[as_size(d.observations)];
 }
 
 /// "; besides, a pattern of 0.4 mm that follows x, which no listed cause makes".

@@ -182,7 +182,7 @@ std::string side_words(const CauseId& cause) {
                                          " at the bottom left",
                                          " at the bottom right",
                                          ", all four equally"};  // by EffectSide
-  return std::string(kWords[static_cast<std::size_t>(cause.side)]);
+  return std::string(kWords[as_size(cause.side)]);
 }
 
 std::string joined(const std::vector<std::string>& parts, std::string_view last,

@@ -53,8 +53,7 @@ void add_units(const ObservationSet& set, std::size_t number, const Linearisatio
     const bool may_be_outlier = observation.may_be_outlier();
     auto& units = may_be_outlier ? system.units : system.certain;
     for (const Index k : each_below(unit.rows)) {
-      system.unit_of_row[as_size(unit.first_row + k)] =
-          may_be_outlier ? static_cast<int>(units.size()) : -1;
+      system.unit_of_row[as_size(unit.first_row + k)] = may_be_outlier ? as_int(units.size()) : -1;
     }
     units.push_back(std::move(unit));
   }

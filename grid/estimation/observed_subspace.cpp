@@ -16,8 +16,7 @@ MatrixXd bending_root(const MatrixXd& penalty, const MatrixXd& polynomials) {
   MatrixXd bent = penalty;
   linear::add_outer(bent, scale, orthonormal);
   MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();
-  linear::add_product(root, -1.0, orthonormal,
-                      linear::product(linear::transposed(orthonormal), root));
+  linear::add_product(root, -1.0, orthonormal, linear::inner(orthonormal, root));
   return root;
 }
 

@@ -96,7 +96,7 @@ Indices looked_at(std::size_t count) {
 }
 
 std::string number_of(const MeasuredGrid& grid, std::size_t row) {
-  return fmt::format("{}", grid.points[row].order.value_or(static_cast<int>(row) + 1));
+  return fmt::format("{}", grid.points[row].order.value_or(as_int(row) + 1));
 }
 
 std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {

@@ -88,7 +88,7 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
     const CheckUnit& unit = readings.units[u];
     Proposal& bad = all.emplace_back(plain(model::Change::bad_point, CheckVerdict::measure_again,
                                            prior.bad_point / as_double(readings.units.size())));
-    bad.hypothesis.count = static_cast<int>(unit.index);
+    bad.hypothesis.count = as_int(unit.index);
     bad.hypothesis.name = unit.name;
     bad.unit = u;
   }
@@ -154,7 +154,7 @@ class Evidence {
     if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
     const MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
     const linear::Cholesky factor(linear::one_plus_gram(u));
-    const VectorXd by_y = linear::product(linear::transposed(u), y);
+    const VectorXd by_y = linear::inner(u, y);
     const VectorXd taken = factor.solve(by_y);
     const double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                                      y.squaredNorm() - by_y.dot(taken));
@@ -208,7 +208,7 @@ using Quantity = model::ChangedQuantity;
 /// Probabilities of the verdicts, the likeliest of these, and the hypotheses likeliest first.
 void decide(Check& check) {
   for (const CheckHypothesis& h : check.hypotheses)
-    check.probability[static_cast<std::size_t>(h.verdict)] += h.probability;
+    check.probability[as_size(h.verdict)] += h.probability;
   stable_sort(check.hypotheses, descending(&CheckHypothesis::probability));
   const auto best = max_element(check.probability);
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
@@ -228,7 +228,7 @@ std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
 
 std::string sentence_of(const Check& check, const CheckWords& words) {
   const CheckHypothesis& first = check.hypotheses.front();
-  const double percent = 100.0 * check.probability[static_cast<std::size_t>(check.verdict)];
+  const double percent = 100.0 * check.probability[as_size(check.verdict)];
   if (first.what == model::Change::bad_point) {
     return fmt::format(
         "Measure {} again ({:.0f} %): only this reading is wrong, and it does not show whether {} "
@@ -281,7 +281,7 @@ double rms_over(const CheckUnit& unit, const std::vector<CheckResidual>& residua
 
 std::string_view name(CheckVerdict verdict) {
   constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
-  return kNames[static_cast<std::size_t>(verdict)];
+  return kNames[as_size(verdict)];
 }
 
 QuantityFound CheckHypothesis::added(std::size_t length) const {

@@ -12,7 +12,7 @@ namespace chaintrue::grid {
 
 std::string_view name(NoiseSource source) {
   constexpr std::string_view kNames[] = {"stated", "repeats", "fit", "assumed"};
-  return kNames[static_cast<std::size_t>(source)];
+  return kNames[as_size(source)];
 }
 
 MapFailure unreachable(const model::MechanismFailure& why) {
@@ -98,7 +98,7 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
   const interp::Rectangle& domain = contents_.domain;
   const auto field = field_to_search();
   MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
-  for (int step = 0; step < kSteps; ++step) {
+  for (const int step : each_below(kSteps)) {
     const auto found = field->at(mark);
     if (!found) return tl::unexpected(found.error());
     const MapLengths& here = found->here;

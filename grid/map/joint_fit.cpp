@@ -259,8 +259,7 @@ tl::expected<Fitting, FitFailure> Fitting::of(estimation::EstimationInput input)
   if (!estimate) {
     constexpr FitReason kReasons[] = {FitReason::point_unreachable, FitReason::rank_deficient,
                                       FitReason::not_converged};  // by EstimationReason
-    return failed(kReasons[static_cast<std::size_t>(estimate.error().reason)],
-                  estimate.error().sentence());
+    return failed(kReasons[as_size(estimate.error().reason)], estimate.error().sentence());
   }
   return Fitting{std::move(input), *std::move(estimate)};
 }

@@ -55,8 +55,8 @@ MatrixXd on_splines(const interp::BsplineBasis& basis,
   constexpr int kPerFunction = 2;
   constexpr double kRidge = 1e-6;
   const std::vector<MarkPoint> marks =
-      raster(basis.rectangle(), kPerFunction * static_cast<int>(basis.columns_x()),
-             kPerFunction * static_cast<int>(basis.columns_y()), RasterOf::nodes);
+      raster(basis.rectangle(), kPerFunction * as_int(basis.columns_x()),
+             kPerFunction * as_int(basis.columns_y()), RasterOf::nodes);
   const auto count = std::ssize(differences);
   MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
   Index used = 0;
@@ -68,8 +68,7 @@ MatrixXd on_splines(const interp::BsplineBasis& basis,
   }
   MatrixXd normal = linear::gram(design.topRows(used));
   normal.diagonal().array() += kRidge;
-  const MatrixXd right =
-      linear::product(linear::transposed(design.topRows(used)), response.topRows(used));
+  const MatrixXd right = linear::inner(design.topRows(used), response.topRows(used));
   return linear::Cholesky(std::move(normal)).solve(right).reshaped(2 * basis.size(), count);
 }
 
@@ -104,7 +103,7 @@ RowVectorXd LargestError::largest_mm2() const {
 double LargestError::bound_mm() const {
   if (taken_mm2_.size() == 0) return 0.0;
   RowVectorXd sorted = largest_mm2();
-  const auto at = static_cast<Index>(kLevel * static_cast<double>(kDraws));
+  const auto at = static_cast<Index>(kLevel * as_double(kDraws));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
   return std::sqrt(sorted[at]);
 }

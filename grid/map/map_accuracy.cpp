@@ -36,7 +36,7 @@ double noise_at_tool_mm(const CompensationMap& map) {
                      2.0 * noise.position_mm * noise.position_mm);
     ++count;
   }
-  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
+  return count > 0 ? std::sqrt(variance_mm2 / as_double(count)) : 0.0;
 }
 
 MirrorTest test_mirror(const CompensationMap& map) {

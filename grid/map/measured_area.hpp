@@ -22,7 +22,7 @@ enum class MapStatus {
 
 constexpr std::string_view name(MapStatus status) {
   constexpr std::string_view kNames[] = {"inside", "edge", "extrapolated", "outside"};
-  return kNames[static_cast<std::size_t>(status)];
+  return kNames[as_size(status)];
 }
 
 /// Immutable, thread safe.

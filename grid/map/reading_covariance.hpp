@@ -139,7 +139,7 @@ class FactoredCovariance {
         // The variance of a unit given all other readings is at most its prior variance.
         const linear::SymmetricEigen parts(linear::gram(own));
         const VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
-        const MatrixXd turned = linear::product(linear::transposed(parts.eigenvectors()), white);
+        const MatrixXd turned = linear::inner(parts.eigenvectors(), white);
         result.push_back(linear::gram(left.cwiseSqrt().asDiagonal() * turned));
         row += white.rows();
       }
@@ -175,7 +175,7 @@ class FactoredCovariance {
   MatrixXd by_columns(const MatrixXd& white) const {
     MatrixXd result(columns(), white.cols());
     result.topRows(shared_.cols()) = shared_.transpose() * white;
-    result.bottomRows(of_map_.cols()) = linear::product(linear::transposed(of_map_), white);
+    result.bottomRows(of_map_.cols()) = linear::inner(of_map_, white);
     return result;
   }
 

@@ -153,8 +153,7 @@ std::optional<TypedSettings> best_settings(const Truth& truth,
     if (!line) return std::nullopt;
     MatrixXd normal = MatrixXd::Identity(sigmas.size(), sigmas.size());
     linear::add_gram(normal, weight, line->by_value);
-    const VectorXd pull =
-        weight * linear::product(linear::transposed(line->by_value), line->errors) + sigmas;
+    const VectorXd pull = weight * linear::inner(line->by_value, line->errors) + sigmas;
     sigmas -= linear::Cholesky(std::move(normal)).solve(pull);
   }
   ControllerSettings settings = changed_by(sigmas, free, in_force);

@@ -60,7 +60,7 @@ void BeltLengthReadings::join_places() {
   const auto is_found = [this](std::size_t place) {
     return readings_[place].known || readings_[place].counted() >= 2;
   };
-  constexpr auto none = static_cast<std::size_t>(-1);
+  constexpr auto none = as_size(-1);
   Indices number_of(readings_.size(), none);
   for (std::size_t i = 0; i < readings_.size() && !distances_.empty(); ++i) {
     if (number_of.size() <= readings_[i].index) number_of.resize(readings_[i].index + 1, none);

@@ -81,9 +81,8 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
   constexpr double kConvergedMm = 1e-9;
   for (int step = 0; step < kMostSteps; ++step) {
     const MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
-    const VectorXd move =
-        linear::PivotedCholesky(linear::product(linear::transposed(weighed), line.by_position))
-            .solve(linear::product(linear::transposed(weighed), line.residual_mm));
+    const VectorXd move = linear::PivotedCholesky(linear::inner(weighed, line.by_position))
+                              .solve(linear::inner(weighed, line.residual_mm));
     if (!move.allFinite()) break;
     std::vector<ToolPosition> next = line.positions;
     for (const auto p : each_index(next)) {
@@ -193,9 +192,8 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const MatrixXd checks =  // Q
       first == nullptr ? MatrixXd(MatrixXd::Identity(count, count))
                        : MatrixXd(linear::qr(by_position).q.rightCols(left));
-  BlockRows result{-linear::product(linear::transposed(checks),
-                                    VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
-                   linear::product(linear::transposed(checks), by_parameter),
+  BlockRows result{-linear::inner(checks, VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
+                   linear::inner(checks, by_parameter),
                    variance * MatrixXd::Identity(left, left),
                    {}};
   if (is_alone) {

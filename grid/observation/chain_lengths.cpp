@@ -40,8 +40,8 @@ tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& v
   const model::MarkFrame frame(view.chains().machine());
   std::vector<model::Visit> visits;
   for (const auto i : each_index(places_)) {
-    visits.push_back({view.sheet.to_bed(frame.place(places_[i].mark)),
-                      ordered_ ? places_[i].order : static_cast<int>(i)});
+    visits.push_back(
+        {view.sheet.to_bed(frame.place(places_[i].mark)), ordered_ ? places_[i].order : as_int(i)});
   }
   const auto lengths = model::readings(view.chains(), visits);
   if (!lengths)

@@ -12,7 +12,7 @@
 namespace chaintrue::grid {
 std::string_view name(SheetEdge edge) {
   constexpr std::string_view kNames[] = {"left", "right", "top", "bottom"};
-  return kNames[static_cast<std::size_t>(edge)];
+  return kNames[as_size(edge)];
 }
 
 double sigma_of(const MeasuredHoles& set, const HoleDistance& distance) {

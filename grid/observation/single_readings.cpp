@@ -90,7 +90,7 @@ const ReadingKind& reading_kind(ReadingOf what) {
          return 1000.0 * summed_size(m, "tape_scale", r.side);
        }},
   };
-  return kReadingKinds[static_cast<std::size_t>(what)];
+  return kReadingKinds[as_size(what)];
 }
 
 /// Readings of one quantity are combined, weighted by their sigmas, in the order of the first.

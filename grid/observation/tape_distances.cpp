@@ -164,7 +164,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
                       hole.commanded.x_mm, hole.commanded.y_mm, lengths.error().sentence()));
     }
     result.places_.push_back(
-        {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
+        {i, hole.name, model::identity_placement(hole.commanded), *lengths, as_int(i)});
   }
   const std::size_t count = result.set_.distances.size();
   result.measured_.resize(as_index(count));

@@ -296,9 +296,7 @@ double tool_sigma_mm(const Machine& machine, const MatrixXd& covariance) {
   return std::sqrt(std::max(0.0, linear::carried(root, covariance).trace()));
 }
 
-int fewest_distances(bool edges) {
-  return static_cast<int>(kFewestHoleDistances) + (edges ? 3 : 0);
-}
+int fewest_distances(bool edges) { return as_int(kFewestHoleDistances) + (edges ? 3 : 0); }
 
 int most_distances(int holes, bool edges) { return holes * (holes - 1) / 2 + (edges ? holes : 0); }
 

@@ -157,7 +157,7 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const Machine& machi
   }
   if (!map) return tl::unexpected(map.error());
   walk(marks, y);
-  const int extra = static_cast<int>(marks.size()) - shape.columns * shape.rows;
+  const int extra = as_int(marks.size()) - shape.columns * shape.rows;
   return MeasurementPlan{std::move(marks), shape.columns, shape.rows, extra, *std::move(map)};
 }
 

@@ -39,7 +39,7 @@ MatrixXd FoundPlotter::covariance() const {
 
 FoundPlotter found_by(const DrawingFit& fit) {
   const auto at = [&](model::PlotterParameter parameter) {
-    const PlotterSetting& own = fit.settings.at(static_cast<std::size_t>(parameter));
+    const PlotterSetting& own = fit.settings.at(as_size(parameter));
     return FoundSetting{own.found, own.sigma};
   };
   return {at(model::kPinSpacing),         at(model::kPinRise),   at(model::kZeroLeft),

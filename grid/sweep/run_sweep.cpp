@@ -118,7 +118,7 @@ std::uint64_t run_sweep(const SweepSpec& spec, const CellStore& store, const Swe
   const KeepCell keep = store.open();
   std::mutex writing;
   std::uint64_t finished = 0;
-  for_each_index(static_cast<std::size_t>(total), [&](std::uint64_t k) {
+  for_each_index(as_size(total), [&](std::uint64_t k) {
     const std::uint64_t cell = cell_of(run.share, k);
     if (store.has(cell)) return;
     const CellResult result = run_cell(spec, cell);

@@ -66,11 +66,11 @@ std::vector<AtlasLine> lattice_over(const MechanismExtent& extent) {
   const double bottom = extent.y_min_mm + kMargin * height;
   const double top = extent.y_max_mm - kMargin * height;
   std::vector<AtlasLine> lines;
-  for (int row = 0; row < kLatticeRows; ++row) {
+  for (const int row : each_below(kLatticeRows)) {
     const double y = bottom + row * (top - bottom) / (kLatticeRows - 1);
     lines.push_back({straight({left, y}, {right, y}, kPointsOfLine)});
   }
-  for (int column = 0; column < kLatticeColumns; ++column) {
+  for (const int column : each_below(kLatticeColumns)) {
     const double x = left + column * (right - left) / (kLatticeColumns - 1);
     lines.push_back({straight({x, bottom}, {x, top}, kPointsOfLine)});
   }
@@ -131,7 +131,7 @@ AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& mac
     const std::vector<ToolPosition>& points = lines[k].points;
     std::vector<std::optional<ToolPosition>> drawn;
     for (const auto i : each_index(points)) {
-      MechanismVisit visit{.order = machine.first_visit + static_cast<int>(k)};
+      MechanismVisit visit{.order = machine.first_visit + as_int(k)};
       // The first point is reached in the direction in which the line continues.
       const std::size_t to = std::max<std::size_t>(i, 1);
       visit.direction = directions(machine, points[to - 1], points[to]);

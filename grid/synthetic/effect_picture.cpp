@@ -23,7 +23,7 @@ ShiftedSquare square_at(const Machine& machine, const AppliedEffect& applied, Be
   std::vector<Visit> visits;
   for (const auto& [x, y] : kCorners) {
     visits.push_back(
-        {{centre.x_mm + x * kHalfMm, centre.y_mm + y * kHalfMm}, static_cast<int>(visits.size())});
+        {{centre.x_mm + x * kHalfMm, centre.y_mm + y * kHalfMm}, as_int(visits.size())});
   }
   const std::vector<Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
   std::array<Vector2d, 4> cut;

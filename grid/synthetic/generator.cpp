@@ -148,7 +148,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
     points.push_back({{rounded(mark.x_mm, position_step), rounded(mark.y_mm, position_step)},
                       ChainLengths{rounded(left, length_step), rounded(right, length_step)},
                       std::nullopt,
-                      static_cast<int>(i)});
+                      as_int(i)});
   }
   return points;
 }
@@ -221,7 +221,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   std::vector<Visit> visits;
   for (const MarkPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
     const MarkPoint place = jittered(intended, spec.jitter_mm, jitter_random);
-    visits.push_back({answer.sheet.to_bed(place), static_cast<int>(visits.size())});
+    visits.push_back({answer.sheet.to_bed(place), as_int(visits.size())});
     answer.places.push_back(visits.back().position);
   }
 

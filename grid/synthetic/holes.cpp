@@ -81,7 +81,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(const MeasuredHoles& des
   Random bad(spec.seed, kBadStream);
   auto order = numbers_below(made.set.distances.size());
   bad.shuffle(order);
-  for (std::size_t k = 0; k < order.size() && static_cast<int>(k) < spec.bad_readings; ++k) {
+  for (std::size_t k = 0; k < order.size() && as_int(k) < spec.bad_readings; ++k) {
     made.set.distances[order[k]].distance_mm +=
         bad.uniform() < 0.5 ? -spec.bad_size_mm : spec.bad_size_mm;
     made.bad_readings.push_back(order[k]);

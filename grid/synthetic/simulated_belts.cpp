@@ -60,7 +60,7 @@ std::optional<BeltsUnreachable> add_pass(const BeltMachine& stated, const BeltMa
     if (!place) return place.error().at(commands[i]);
     BeltPoint point;
     point.commanded = commands[i];
-    point.order = static_cast<int>(belts.points.size());
+    point.order = as_int(belts.points.size());
     point.pull = pull;
     const auto pulled =
         pulled_after(stated.orientation, commands[i == 0 ? 0 : i - 1], commands[i], i);

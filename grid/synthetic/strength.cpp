@@ -38,7 +38,7 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
   Random unused(0);
   std::vector<Visit> visits;
   for (const Mark& mark : marks(machine.bed, design, unused)) {
-    visits.push_back({model::identity_placement(mark.place), static_cast<int>(visits.size())});
+    visits.push_back({model::identity_placement(mark.place), as_int(visits.size())});
   }
   return visits;
 }
@@ -178,7 +178,7 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
                                     : std::min(parameter.upper, std::numbers::pi);
     std::vector<std::vector<double>> more;
     for (const auto& choice : choices) {
-      for (int k = 0; k < kSteps; ++k) {
+      for (const int k : each_below(kSteps)) {
         std::vector<double> other = choice;
         const double place = from + (to - from) * (k + 0.5) / kSteps;
         other[i] = counts_visits ? std::floor(place) : place;
