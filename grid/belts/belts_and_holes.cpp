@@ -370,7 +370,7 @@ tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const Measure
     return stated;
   }
   auto fit = fit_belts(measured);
-  if (!fit) return tl::unexpected(fit.error());
+  if (!fit) return failed(fit);
   auto frame = belts::fit_anchors_robustly(measured);
   MatrixXd covariance = belts::FitDiagnostics(measured, *frame).covariance();
   return BeltsByThemselves{*std::move(fit), *std::move(frame), std::move(covariance)};

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "grid/diagnosis/outlier_search.hpp"
+#include "grid/failed.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -247,10 +248,9 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   Analysis a;
   a.session = std::move(session);
   a.options = options;
-  if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
+  if (auto done = calibrate(a); !done) return failed(done);
   a.candidates = candidates(a.session);
-  if (auto done = compare_in_rounds(calibrated_rules(), a); !done)
-    return tl::unexpected(done.error());
+  if (auto done = compare_in_rounds(calibrated_rules(), a); !done) return failed(done);
   judge(calibrated_rules(), a);
   return a;
 }

@@ -185,7 +185,7 @@ tl::expected<BeltsAnalysis, BeltsFitFailure> analyse(const MeasuredBelts& belts,
   BeltsAnalysis a;
   tell(options.progress, kFitting);
   auto before = fit_belts(belts);
-  if (!before) return tl::unexpected(before.error());
+  if (!before) return failed(before);
   a.before = *std::move(before);
   tell(options.progress, kComparingBelts);
   a.measured = belts;

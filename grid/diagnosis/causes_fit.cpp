@@ -15,6 +15,7 @@
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/largest_error.hpp"
 #include "grid/parallel.hpp"
 #include "grid/raster.hpp"
@@ -349,7 +350,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {
   const auto without_causes = [](tl::expected<JointFit, FitFailure> plain,
                                  std::string why) -> tl::expected<CausesFit, FitFailure> {
-    if (!plain) return tl::unexpected(plain.error());
+    if (!plain) return failed(plain);
     return noted({*std::move(plain), {}, {}, std::nullopt, 0.0, std::move(why)});
   };
   if (const std::size_t count = readings_of(measured); count > kMostWeighed)
@@ -362,7 +363,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   weighed.progress = options.fit.progress;
   NamingAndPlainFit made = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
   if (!made.naming) return without_causes(std::move(made.plain), made.naming.error().sentence());
-  if (!made.plain) return tl::unexpected(made.plain.error());
+  if (!made.plain) return failed(made.plain);
   return fit_on_causes(measured, *made.naming, *std::move(made.plain), options,
                        [&] { return naming_improves_the_map(made.naming->analysis); });
 }

@@ -20,6 +20,7 @@
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/estimation/estimate.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/parallel.hpp"
@@ -193,7 +194,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
           : NamingAndPlainFit{
                 name_causes(measured, options, NamingFor::report),
                 tl::unexpected(FitFailure(FitReason::not_converged, "no map was asked for"))};
-  if (!found.naming) return tl::unexpected(found.naming.error());
+  if (!found.naming) return failed(found.naming);
   Naming& naming = *found.naming;
   const Analysis& a = naming.analysis;
   const LawsFound& laws = naming.laws;
@@ -309,7 +310,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
       model::make_plotter_mechanism(drawing.machine));
   session.fewest_units = kFewestMeasures;
   auto analysis = analyse(std::move(session), options);
-  if (!analysis) return tl::unexpected(analysis.error());
+  if (!analysis) return failed(analysis);
   const Analysis& a = *analysis;
   Diagnosis d;
   d.observations = Observations::drawing;

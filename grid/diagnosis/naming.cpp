@@ -63,7 +63,7 @@ tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& o
   options.order_assumed = true;
   options.orders_tried = as_int(line_by_line_orders().size());
   auto session = diagnosis::observations_of(visited_in(measured, order.order).value());
-  if (!session) return tl::unexpected(session.error());
+  if (!session) return failed(session);
   return analyse(*std::move(session), options);
 }
 
@@ -83,7 +83,7 @@ tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured
       return AnalysedInOrder{*std::move(ordered), order};
   }
   auto analysis = analyse(std::move(session), options);
-  if (!analysis) return tl::unexpected(analysis.error());
+  if (!analysis) return failed(analysis);
   if (!has_several && (order = find_visiting_order(measured, *analysis))) {
     if (auto ordered = analysed_in(*order, measured, options))
       return AnalysedInOrder{*std::move(ordered), order};
@@ -96,12 +96,12 @@ tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured
 tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
                                                    const DiagnosisOptions& options, NamingFor use) {
   auto session = observations_of(measured);
-  if (!session) return tl::unexpected(session.error());
+  if (!session) return failed(session);
   if (const auto slip = suspected_slip(measured))
     return failed(DiagnosisFailure::Reason::contradictory_settings, *slip);
   tell(options.progress, kComparing);
   auto analysed = analysed_in_order(measured, *std::move(session), options);
-  if (!analysed) return tl::unexpected(analysed.error());
+  if (!analysed) return failed(analysed);
   Naming naming{std::move(analysed->analysis), analysed->order, {}, {}, {}, {}};
   Analysis& a = naming.analysis;
   if (use == NamingFor::causes && a.decision.listed.empty()) return naming;

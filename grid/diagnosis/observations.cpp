@@ -232,7 +232,7 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   std::size_t index = 0;
   for (const MeasuredGrid* grid : measured.grids()) {
     auto points = points_of(*grid, stated, index, so_far);
-    if (!points) return tl::unexpected(points.error());
+    if (!points) return failed(points);
     add(*std::move(points));
     index += grid->points.size();
   }

@@ -67,7 +67,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                   const Diagnosis& diagnosis,
                                                   const MeasuredGrid& to) {
   const auto first = observations_of(from);
-  if (!first) return tl::unexpected(first.error());
+  if (!first) return failed(first);
   // The second grid is treated as measured with the first one's machine, regardless of its file.
   MeasuredGrid other = to;
   other.machine = from.machine;
@@ -77,11 +77,11 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   }
   other.readings.clear();
   auto second = observations_of(other);
-  if (!second) return tl::unexpected(second.error());
+  if (!second) return failed(second);
   DiagnosisOptions options;
   options.seed = diagnosis.seed;
   const auto analysis = analyse(*first, options);
-  if (!analysis) return tl::unexpected(analysis.error());
+  if (!analysis) return failed(analysis);
   const Analysis& a = *analysis;
   // The other sheet was placed separately.
   State state{a.state.machine, std::vector<SheetPlacement>(second->sheets)};

@@ -18,6 +18,7 @@
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/finished_fit.hpp"
+#include "grid/failed.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
@@ -39,11 +40,11 @@ class Estimator {
         state_(problem_->stated()) {}
 
   tl::expected<Estimate, EstimationFailure> run() {
-    if (auto done = approach(); !done) return tl::unexpected(done.error());
-    if (auto done = converge(); !done) return tl::unexpected(done.error());
+    if (auto done = approach(); !done) return failed(done);
+    if (auto done = converge(); !done) return failed(done);
     if (input_.reading_limits) reject_readings();
     if (input_.surface == SurfaceUse::on_evidence) {
-      if (auto done = choose_surface(); !done) return tl::unexpected(done.error());
+      if (auto done = choose_surface(); !done) return failed(done);
     }
     return result();
   }
@@ -151,7 +152,7 @@ class Estimator {
       const bool perhaps_last = converged_ || last || !problem_->has_surface();
       if (perhaps_last) smoothing = Smoothing::choose;
       if (!is_linearised_) {
-        if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
+        if (auto done = problem_->linearise(state_); !done) return failed(done);
       }
       is_linearised_ = false;
       begin_weights();
@@ -160,7 +161,7 @@ class Estimator {
           as_stated_.push_back(problem_->marks(k));
       }
       Fit fit = solve(weights_, smoothing, perhaps_last && problem_->has_surface());
-      if (!fit) return tl::unexpected(fit.error());
+      if (!fit) return failed(fit);
       fit_ = *std::move(fit);
       State next = problem_->state_of(fit_);
       const double step = step_to(next, rule);

@@ -10,6 +10,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/left_out.hpp"
+#include "grid/failed.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/reading_model.hpp"
@@ -64,7 +65,7 @@ struct FinishedFit {
     estimate.effective_parameters = fit.edf;
     fill_covariances(estimate);
     fill_units(estimate);
-    if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
+    if (auto done = fill_observations(estimate); !done) return failed(done);
     return estimate;
   }
 

@@ -435,7 +435,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     parts.push_back(*std::move(part));
   }
   const auto at = map_at(map, marks, progress);
-  if (!at) return tl::unexpected(at.error());
+  if (!at) return failed(at);
   Gathered gathered(*at);
   std::size_t first = 0;
   for (const auto k : each_index(parts)) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/failed.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
@@ -69,7 +70,7 @@ CompensationMap CompensationMap::with_sigma_beyond(double factor) const {
 
 tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
   const auto found = with_spread(mark);
-  if (!found) return tl::unexpected(found.error());
+  if (!found) return failed(found);
   MapAnswer answer;
   answer.lengths = found->here.lengths;
   answer.mark_jacobian = found->here.mark_jacobian;
@@ -100,7 +101,7 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
   MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
   for (const int step : each_below(kSteps)) {
     const auto found = field->at(mark);
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     const MapLengths& here = found->here;
     const Vector2d missing = difference(wanted, here.lengths);
     const Vector2d move = here.mark_jacobian.inverse() * missing;

@@ -60,9 +60,9 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid, const Machin
   for (const MeasuredPoint& point : grid.points)
     visits.push_back({model::identity_placement(point.mark), *point.order});
   const auto disturbed = readings_with(with_visits, visits);
-  if (!disturbed) return tl::unexpected(disturbed.error());
+  if (!disturbed) return failed(disturbed);
   const auto quiet = readings_with(without, visits);
-  if (!quiet) return tl::unexpected(quiet.error());
+  if (!quiet) return failed(quiet);
   for (const auto i : each_index(grid.points)) {
     const ChainLengths read = (*points)[i].lengths;
     grid.points[i].lengths =
@@ -94,8 +94,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
     if (has_order) {
       Machine both = rest;
       append_all(both.effects, visit.effects);
-      if (auto done = correct_readings(corrected.grid, both, rest); !done)
-        return tl::unexpected(done.error());
+      if (auto done = correct_readings(corrected.grid, both, rest); !done) return failed(done);
       corrected.notes.push_back(
           fmt::format("Changes during the session were removed from the readings ({}): the map, "
                       "and the errors with it and without, are for the machine before the change.",

@@ -122,7 +122,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   const auto points = length_points(grid);
   if (!points) return failed(FitReason::no_lengths, points.error());
   Lattice lattice = lattice_of(*points);
-  if (auto full = check_full(lattice); !full) return tl::unexpected(full.error());
+  if (auto full = check_full(lattice); !full) return failed(full);
 
   const LineErrors columns = leave_lines_out(lattice, options.ends, true);
   const LineErrors rows = leave_lines_out(lattice, options.ends, false);
@@ -178,7 +178,7 @@ tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const Fi
         .map([](JointFit&& fit) { return std::move(fit.map); });
   }
   const auto corrected = corrected_data(grid);
-  if (!corrected) return tl::unexpected(corrected.error());
+  if (!corrected) return failed(corrected);
   auto map = fit_direct(corrected->grid, options);
   if (!map) return map;
   return map->with_notes_first(corrected->notes).with_outside(options.outside);

@@ -41,7 +41,7 @@ tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>
 
 tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
                                          const Progress& progress) {
-  if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
+  if (auto one = check_one_machine(files); !one) return failed(one);
   const bool with_grids =
       any_of(files, [](const MeasuredFile& file) { return file.grid() != nullptr; });
   Parts parts;
@@ -121,7 +121,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
 tl::expected<Fitting, FitFailure> fit_alone(FitPart& part, estimation::EstimationInput input) {
   auto fitting = Fitting::of(std::move(input));
   if (!fitting) return fitting;
-  if (auto found = part.find_noise(*fitting); !found) return tl::unexpected(found.error());
+  if (auto found = part.find_noise(*fitting); !found) return failed(found);
   return fitting;
 }
 
@@ -291,10 +291,10 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
   const std::vector<MeasuredFile>& files = measured.files();
   if (files.empty()) throw std::invalid_argument("no files to fit");
   auto parts = parts_of(files, options.progress);
-  if (!parts) return tl::unexpected(parts.error());
+  if (!parts) return failed(parts);
   const bool alone = files.size() == 1;
   if (!alone) {
-    if (auto stated = state_noises(files, *parts); !stated) return tl::unexpected(stated.error());
+    if (auto stated = state_noises(files, *parts); !stated) return failed(stated);
   }
   estimation::EstimationInput input = estimation_input(*parts);
   input.progress = options.progress;
@@ -303,9 +303,8 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
   input.step = {"settings and correction", alone ? 1 : 2, steps};
   auto fitting =
       alone ? fit_alone(*parts->front(), std::move(input)) : Fitting::of(std::move(input));
-  if (!fitting) return tl::unexpected(fitting.error());
-  if (auto good = check_enough_good(files, *parts, fitting->estimate); !good)
-    return tl::unexpected(good.error());
+  if (!fitting) return failed(fitting);
+  if (auto good = check_enough_good(files, *parts, fitting->estimate); !good) return failed(good);
   tell(options.progress, {"the map's own error", steps, steps});
   MapDraft draft;
   CompensationMap map = map_of(files, *parts, *fitting, draft);

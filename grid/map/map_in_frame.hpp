@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "grid/failed.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/plane_vectors.hpp"
 #include "interp/eigen.hpp"
@@ -28,20 +29,20 @@ class MapInFrame final : public LengthMap {
 
   [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(BedPoint point) const override {
     const auto found = map_.query(mark_of(point));
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     return LengthsAnswer{vector_of(found->lengths), found->sigma, found->tool_sigma_mm,
                          found->status};
   }
 
   [[nodiscard]] tl::expected<ChainLengths, MapFailure> lengths(BedPoint point) const override {
     const auto found = map_.lengths(mark_of(point));
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     return found->lengths;
   }
 
   [[nodiscard]] tl::expected<BedPoint, MapFailure> tool(ChainLengths lengths) const override {
     const auto found = map_.inverse(lengths);
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     return frame_ == MapFrame::bed ? map_.to_bed(*found) : model::identity_placement(*found);
   }
 

@@ -102,7 +102,7 @@ class PointsPart final : public FitPart {
       alone.input.noise = noise;
       alone.input.step = kNoise;
       auto again = Fitting::of(std::move(alone.input));
-      if (!again) return tl::unexpected(again.error());
+      if (!again) return failed(again);
       alone = *std::move(again);
       return {};
     }
@@ -262,13 +262,13 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& g
                   "--surface direct");
   }
   auto corrected = corrected_data(grid);
-  if (!corrected) return tl::unexpected(corrected.error());
+  if (!corrected) return failed(corrected);
   auto points = length_points(corrected->grid);
   if (!points) return failed(FitReason::no_lengths, points.error());
   MeasuredGrid& own = corrected->grid;
   if (states_noise(own)) own.noise = not_below_rounding(*own.noise, grid);
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
-    return tl::unexpected(possible.error());
+    return failed(possible);
   auto part = std::make_unique<PointsPart>(own, *std::move(points), rounding_noise(grid));
   part->corrections = std::move(corrected->notes);
   return part;

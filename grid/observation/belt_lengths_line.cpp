@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
@@ -90,7 +91,7 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
       next[p].y_mm += move[2 * as_index(p) + 1];
     }
     auto there = line_at(view, block, std::move(next), line.by_parameter.cols() > 0);
-    if (!there) return tl::unexpected(there.error());
+    if (!there) return failed(there);
     line = *std::move(there);
     if (move.norm() < kConvergedMm) return {};
   }
@@ -122,7 +123,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
   }
   auto line = line_at(view, block, std::move(positions), with_parameters);
   if (!line || block.distances.empty() || block.places.empty()) return line;
-  if (auto found = find_positions(view, block, *line); !found) return tl::unexpected(found.error());
+  if (auto found = find_positions(view, block, *line); !found) return failed(found);
   return line;
 }
 
@@ -134,7 +135,7 @@ tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
     const std::size_t end = b + 1 < blocks_.size() ? first_unit_[b + 1] : units_.size();
     if (first_unit_[b] == end) continue;
     auto own = rows_of(view, blocks_[b], columns.parameters);
-    if (!own) return tl::unexpected(own.error());
+    if (!own) return failed(own);
     const Index first = units_[first_unit_[b]].first_row;
     result.predicted.segment(first, own->predicted.size()) = own->predicted;
     result.by_setting.block(first, 0, own->predicted.size(), parameters) = own->by_parameter;
@@ -168,7 +169,7 @@ std::shared_ptr<const Observation> BeltLengthReadings::about_others(
 tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::rows_of(
     const View& view, const Block& block, bool with_parameters) const {
   const auto line = block_line(view, block, with_parameters);
-  if (!line) return tl::unexpected(line.error());
+  if (!line) return failed(line);
   const LengthsAtPlace* first = block.places.empty() ? nullptr : &readings_[block.places.front()];
   const bool is_known = first != nullptr && first->known;
   const bool is_alone = block.places.size() == 1 && block.distances.empty();

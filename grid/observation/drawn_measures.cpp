@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 
@@ -55,7 +56,7 @@ DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points, std::vector<DrawnMe
 tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& view,
                                                                   const Columns& columns) const {
   const auto at = located(view, columns.parameters);
-  if (!at) return tl::unexpected(at.error());
+  if (!at) return failed(at);
   const Index p = columns.parameters ? view.mechanism->values().size() : 0;
   Linearisation line = blank(p + (columns.sheet ? 3 : 0));
   for (const auto k : each_index(measures_)) {

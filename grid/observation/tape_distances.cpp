@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "grid/failed.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
@@ -192,7 +193,7 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
                                                                   const Columns& columns) const {
   const std::vector<Setting> settings = settings_in(columns);
   auto states = placed(view);
-  if (!states) return tl::unexpected(states.error());
+  if (!states) return failed(states);
   std::vector<MarkPoint> marks;
   for (const ChainPlaceState& state : *states) marks.push_back(state.mark);
   const double factor = tape_factor(view.chains().machine());

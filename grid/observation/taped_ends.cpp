@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "grid/failed.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::observation {
@@ -29,9 +30,9 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const Mechanism& me
                                            "the lengths that were paid out for a hole do not meet"};
   const auto at =
       model::locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
-  if (!at) return tl::unexpected(at.error());
+  if (!at) return failed(at);
   const auto there = mechanism.predict(*at, {});
-  if (!there) return tl::unexpected(there.error());
+  if (!there) return failed(there);
   // Lengths that do not meet have a nearest position, but no hole.
   constexpr double kTogetherMm = 1e-6;
   for (const auto i : each_index(hole.deciding)) {
@@ -55,9 +56,9 @@ tl::expected<DistanceLine, model::MechanismFailure> distance_line(
     const Mechanism& mechanism, const TapedDistance& distance,
     const std::array<ToolPosition, 2>& places) {
   const auto from = placed(mechanism, distance.from, places[0]);
-  if (!from) return tl::unexpected(from.error());
+  if (!from) return failed(from);
   const auto to = placed(mechanism, distance.to, places[1]);
-  if (!to) return tl::unexpected(to.error());
+  if (!to) return failed(to);
   const model::FrameScale scale = mechanism.frame_scale();
   const Vector2d way = to->at - from->at;
   const RowVector2d along = scale.factor * way.normalized().transpose();

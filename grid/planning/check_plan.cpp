@@ -130,7 +130,7 @@ tl::expected<PerSide<double>, PlanFailure> expected_sigmas(const CompensationMap
                                                            const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);
-  if (!readings) return tl::unexpected(readings.error());
+  if (!readings) return failed(readings);
   auto all = numbers_below(marks.size());
   return roots(Separation(*readings).squared_sigmas(all));
 }
@@ -145,7 +145,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
                   fmt::format("the map covers only {} of the places tried", places.size()));
   }
   const auto readings = readings_at(map, places, request);
-  if (!readings) return tl::unexpected(readings.error());
+  if (!readings) return failed(readings);
   const Separation separation(*readings);
   const Indices chosen = choose(separation, places.size(), request.points);
   CheckPlan plan;

@@ -155,7 +155,7 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const Machine& machi
     marks.push_back(*next);
     map = planner.map_of(marks);
   }
-  if (!map) return tl::unexpected(map.error());
+  if (!map) return failed(map);
   walk(marks, y);
   const int extra = as_int(marks.size()) - shape.columns * shape.rows;
   return MeasurementPlan{std::move(marks), shape.columns, shape.rows, extra, *std::move(map)};

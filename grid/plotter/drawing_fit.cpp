@@ -156,7 +156,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   if (auto slip = slip_of_drawing(drawing, drawn, *model::make_plotter_mechanism(drawing.machine)))
     return tl::unexpected(std::move(*slip));
   auto estimate = estimated(drawing.machine, readings);
-  if (!estimate) return tl::unexpected(estimate.error());
+  if (!estimate) return failed(estimate);
   raise_to_rounding(drawing, *estimate);
 
   const VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/random.hpp"
 #include "model/belts/belt_readings.hpp"
 
@@ -37,7 +38,7 @@ std::vector<BedPoint> commands_of(const BeltMachine& stated, const BeltsSpec& sp
 tl::expected<FramePoint, model::BeltFailure> place_of(const BeltMachine& stated,
                                                       const BeltMachine& truth, BedPoint command) {
   const auto paid_out = model::lengths_at(stated, model::to_frame(stated, command));
-  if (!paid_out) return tl::unexpected(paid_out.error());
+  if (!paid_out) return failed(paid_out);
   return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
 }
 
