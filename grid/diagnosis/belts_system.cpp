@@ -162,7 +162,7 @@ Candidates candidates(const MeasuredBelts& belts) {
       return "lengths that are all too long in proportion fit a larger frame without "
              "contradiction: tape one long distance, between two anchors or two holes that the "
              "machine cut, and enter it under distances";
-    if (effect->needs == model::effects::DataNeed::order && !ordered)
+    if (effect->needs == DataNeed::order && !ordered)
       return "the file does not have the order of the places: add order";
     if (effect->by_tension && !tells_pull)
       return "no belt is pulled while others hold: name the pulled belts under pulled";

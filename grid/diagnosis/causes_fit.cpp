@@ -23,8 +23,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::PlaceVariable;
-
 /// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
 struct HeldOutSquare {
   double plain_mm2 = 0.0;

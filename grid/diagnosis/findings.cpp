@@ -221,8 +221,7 @@ Cause describe(const Analysis& a, std::size_t index) {
       cause.same_as.push_back({member, std::move(found)});
     }
   }
-  cause.order_assumed =
-      a.options.order_assumed && cause.cause.effect->needs == model::effects::DataNeed::order;
+  cause.order_assumed = a.options.order_assumed && cause.cause.effect->needs == DataNeed::order;
   return cause;
 }
 

@@ -208,8 +208,6 @@ namespace {
 using model::effects::ActsOn;
 using model::effects::Declaration;
 using model::effects::DeclaredParameter;
-using model::effects::EffectSide;
-using model::effects::ParameterRole;
 
 std::string variable_of(const Law& law, const Bed& bed) {
   constexpr std::string_view kVariables[] = {"x",

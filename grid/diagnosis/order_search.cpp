@@ -132,10 +132,9 @@ OrderColumns order_columns(const Analysis& a, const Measured& ordered) {
   std::vector<CauseId> causes;
   for (const CauseId& cause : candidates(*set).testable) {
     const bool at_a_visit = any_of(cause.effect->parameters, [](const auto& parameter) {
-      return parameter.role == model::effects::ParameterRole::place;
+      return parameter.role == ParameterRole::place;
     });
-    if (cause.effect->needs == model::effects::DataNeed::order && !at_a_visit)
-      causes.push_back(cause);
+    if (cause.effect->needs == DataNeed::order && !at_a_visit) causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
   const MatrixXd columns = system->g.dense(numbers_below<int>(system->g.cols()));

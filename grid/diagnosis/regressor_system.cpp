@@ -42,9 +42,6 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   return system;
 }
 
-using model::effects::ParameterRole;
-using model::effects::PlaceVariable;
-
 namespace {
 
 constexpr int kPlaces = 24;  // of a knee or a phase: neighbours have a collinearity of 0.99

@@ -243,7 +243,7 @@ inline Flags nothing_rejected(const RegressorSystem& system) {
 const EffectParameter* place_parameter(const Effect& effect);
 
 /// The variable that this place is compared with.
-model::effects::PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place);
+PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place);
 /// Between the nearest places of the tool to either side of it, in that variable: a step at one place between them
 /// is the same at all readings as one at another. Empty if a side has none, and for phases.
 struct PlaceGap {
@@ -253,8 +253,8 @@ struct PlaceGap {
 std::optional<PlaceGap> gap_about(const RegressorSystem& system, CauseId cause, double place);
 
 /// The variable's value at every place of the tool, for the chain of this side or of either.
-std::vector<double> compared_at_places(const RegressorSystem& system,
-                                       model::effects::PlaceVariable variable, EffectSide side);
+std::vector<double> compared_at_places(const RegressorSystem& system, PlaceVariable variable,
+                                       EffectSide side);
 
 /// Places where an effect may set in: visits, phases of a turn, angles (or another variable of the
 /// place) between those of the places of the tool.

@@ -11,8 +11,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::PlaceVariable;
-
 constexpr int kMostLinks = 3;  // larger ones are visible to the eye
 
 std::vector<const Effect*> effects_of(const State& state) {

@@ -37,7 +37,7 @@ VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet&
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
     if (d.cause.effect->station == Station::reading) continue;
-    if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
+    if (d.cause.effect->needs == DataNeed::order && !to.ordered()) continue;
     const auto g = signature(to, state, system, d);
     if (g) left -= *g * model.coefficient(as_index(k));
   }

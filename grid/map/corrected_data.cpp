@@ -13,9 +13,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::effects::Effect;
 using model::effects::find_effect;
-using model::effects::Station;
 
 bool is_of_the_paper(const Effect& effect) { return effect.station == Station::paper; }
 

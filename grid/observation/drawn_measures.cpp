@@ -75,9 +75,8 @@ tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& vi
   return line;
 }
 
-std::string DrawnMeasures::untestable(const model::effects::Effect& effect,
-                                      model::effects::EffectSide) const {
-  if (effect.needs != model::effects::DataNeed::order) return "";
+std::string DrawnMeasures::untestable(const Effect& effect, EffectSide) const {
+  if (effect.needs != DataNeed::order) return "";
   return fmt::format("a drawing does not show the order of its lines, which {} needs", effect.id);
 }
 

@@ -65,8 +65,7 @@ class DrawnMeasures final : public Observation {
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
 
-  std::string untestable(const model::effects::Effect& effect,
-                         model::effects::EffectSide) const override;
+  std::string untestable(const Effect& effect, EffectSide) const override;
 
   /// "the length A-B", "the bow of A-B".
   std::string name_of(std::size_t unit) const override;

@@ -227,9 +227,8 @@ class Observation {
 
   /// Why this kind cannot show the effect; empty if it can. By default it shows all but those that
   /// need an unknown order.
-  virtual std::string untestable(const model::effects::Effect& effect,
-                                 model::effects::EffectSide /*side*/) const {
-    const bool needs_order = effect.needs == model::effects::DataNeed::order;
+  virtual std::string untestable(const Effect& effect, EffectSide /*side*/) const {
+    const bool needs_order = effect.needs == DataNeed::order;
     return needs_order && !ordered_ ? "the order in which the points were visited is not known"
                                     : "";
   }

@@ -70,8 +70,7 @@ class SingleReadings final : public Observation {
     return line;
   }
 
-  std::string untestable(const model::effects::Effect& effect,
-                         model::effects::EffectSide) const override {
+  std::string untestable(const Effect& effect, EffectSide) const override {
     return fmt::format("readings of the machine's parts alone do not show {}", effect.id);
   }
 

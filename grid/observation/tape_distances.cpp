@@ -113,9 +113,8 @@ void raise_to_rounding(MeasuredHoles& set) {
   }
 }
 
-bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
-  if (effect.station != model::effects::Station::paper || side != model::effects::EffectSide::both)
-    return false;
+bool is_of_tape(const Effect& effect, EffectSide side) {
+  if (effect.station != Station::paper || side != EffectSide::both) return false;
   // Declared effects may be more than a scale.
   const std::vector<double> values = model::effects::nominal_values(effect);
   const MarkPoint x = effect.write({1.0, 0.0}, side, values);
@@ -223,12 +222,11 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   return line;
 }
 
-std::string TapeDistances::untestable(const model::effects::Effect& effect,
-                                      model::effects::EffectSide side) const {
-  if (effect.needs == model::effects::DataNeed::order) {
+std::string TapeDistances::untestable(const Effect& effect, EffectSide side) const {
+  if (effect.needs == DataNeed::order) {
     return "the order in which the holes were cut is not in the file, and no chain was read";
   }
-  if (effect.station == model::effects::Station::paper && !is_of_tape(effect, side)) {
+  if (effect.station == Station::paper && !is_of_tape(effect, side)) {
     return "a tape has one scale in every direction, and no axes: print or place marks and read "
            "the chains there";
   }

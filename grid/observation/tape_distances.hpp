@@ -53,7 +53,7 @@ struct DistanceNoise {
 DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry);
 
 /// The one effect of the paper that a tape can have: its scale.
-bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side);
+bool is_of_tape(const Effect& effect, EffectSide side);
 /// Read over true length, if the machine's effects include a tape error.
 double tape_factor(const Machine& machine);
 
@@ -87,8 +87,7 @@ class TapeDistances final : public Observation {
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
 
-  std::string untestable(const model::effects::Effect& effect,
-                         model::effects::EffectSide side) const override;
+  std::string untestable(const Effect& effect, EffectSide side) const override;
 
   std::string name_of(std::size_t unit) const override;
 

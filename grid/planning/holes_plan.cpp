@@ -246,9 +246,8 @@ struct Pattern {
   VectorXd white;  ///< change of the distances at the effect's nominal size
 };
 
-bool shows_in_distances(const model::effects::Effect& effect) {
-  return effect.station != model::effects::Station::paper &&
-         !model::effects::depends_on_visit(effect);
+bool shows_in_distances(const Effect& effect) {
+  return effect.station != Station::paper && !model::effects::depends_on_visit(effect);
 }
 
 /// Empty if the machine cannot cut the holes.
@@ -270,9 +269,9 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
       observation::marginal_covariance(*line, distances->nuisance_sigma()) +
       line->by_setting * prior.asDiagonal() * line->by_setting.transpose());
   std::vector<Pattern> patterns;
-  for (const model::effects::Effect* effect : model::effects::effects_of(*set.machine)) {
+  for (const Effect* effect : model::effects::effects_of(*set.machine)) {
     if (!shows_in_distances(*effect)) continue;
-    for (const model::effects::EffectSide side : effect->sides) {
+    for (const EffectSide side : effect->sides) {
       Machine machine = *set.machine;
       machine.effects.push_back(
           model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));

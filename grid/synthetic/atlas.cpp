@@ -19,9 +19,6 @@ namespace {
 
 using model::MechanismExtent;
 using model::MechanismVisit;
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
 using MechanismPointer = std::shared_ptr<const Mechanism>;
 
 /// The machine as set in its controller, and the true one.
@@ -205,7 +202,7 @@ AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, dou
 
 std::size_t first_size(const Effect& effect) {
   std::size_t at = 0;
-  while (effect.parameters[at].role != model::effects::ParameterRole::size) ++at;
+  while (effect.parameters[at].role != ParameterRole::size) ++at;
   return at;
 }
 

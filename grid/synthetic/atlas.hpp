@@ -48,8 +48,8 @@ struct AtlasFrame {
 
 struct AtlasPicture {
   /// Null for a setting.
-  const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side = model::effects::EffectSide::none;
+  const Effect* effect = nullptr;
+  EffectSide side = EffectSide::none;
   std::string_view parameter;  ///< its size's name, or the setting
   double null = 0.0;           ///< the size without effect
   /// Sizes rise; the usual one is among them.

@@ -39,9 +39,8 @@ ShiftedSquare square_at(const Machine& machine, const AppliedEffect& applied, Be
 
 }  // namespace
 
-EffectPicture picture_effect(const Machine& machine, const model::effects::Effect& effect,
-                             model::effects::EffectSide side, const std::vector<double>& values,
-                             const StatedNoise& noise) {
+EffectPicture picture_effect(const Machine& machine, const Effect& effect, EffectSide side,
+                             const std::vector<double>& values, const StatedNoise& noise) {
   EffectPicture picture;
   const AppliedEffect applied = model::effects::applied(effect, side, values);
   picture.applied = applied;

@@ -53,8 +53,7 @@ struct EffectPicture {
 /// `values` in the order of the effect's parameters.
 /// \throws std::invalid_argument if the effect cannot act on the machine or the machine cannot
 /// reach its own bed.
-EffectPicture picture_effect(const Machine& machine, const model::effects::Effect& effect,
-                             model::effects::EffectSide side, const std::vector<double>& values,
-                             const StatedNoise& noise);
+EffectPicture picture_effect(const Machine& machine, const Effect& effect, EffectSide side,
+                             const std::vector<double>& values, const StatedNoise& noise);
 
 }  // namespace chaintrue::grid::synthetic

@@ -104,9 +104,9 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
 Indices miscounted(const Machine& machine, const std::vector<Visit>& visits) {
   Indices points;
   for (const AppliedEffect& effect : machine.effects) {
-    const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
+    const Effect* known = model::effects::find_effect(machine, effect.effect);
     if (known == nullptr || !known->at_one_visit) continue;
-    const auto value = [&](const model::effects::EffectParameter& parameter) {
+    const auto value = [&](const EffectParameter& parameter) {
       return effect.parameters.at(std::string(parameter.name));
     };
     if (value(known->parameters.front()) == known->parameters.front().null) continue;

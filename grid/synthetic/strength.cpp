@@ -167,7 +167,7 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
   std::vector<std::vector<double>> choices = {model::effects::nominal_values(effect)};
   for (const auto i : each_index(effect.parameters)) {
     const EffectParameter& parameter = effect.parameters[i];
-    if (parameter.role != model::effects::ParameterRole::place) continue;
+    if (parameter.role != ParameterRole::place) continue;
     const bool counts_visits = parameter.integer;
     const bool declared = effect.law != nullptr;
     const double from = counts_visits ? 1.0

@@ -57,8 +57,8 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
                            const std::vector<model::Visit>& visits);
 
 struct Rival {
-  const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side = model::effects::EffectSide::none;
+  const Effect* effect = nullptr;
+  EffectSide side = EffectSide::none;
   double collinearity = 0.0;
 };
 
@@ -81,10 +81,6 @@ struct EffectStrength {
 /// The signatures of the whole catalogue over one session.
 class StrengthTable {
  public:
-  using Effect = model::effects::Effect;
-  using EffectParameter = model::effects::EffectParameter;
-  using EffectSide = model::effects::EffectSide;
-
   /// \throws std::invalid_argument if a visit cannot be reached or a noise is not above 0.
   StrengthTable(const Machine& stated, std::vector<model::Visit> visits, const StatedNoise& noise);
 
