@@ -266,7 +266,6 @@ double probability_of(const Analysis& a, const CauseId& cause) {
 }
 
 std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testable) {
-  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
     if (contains(a.decision.listed, a.decision.class_of(cause))) continue;

@@ -99,7 +99,7 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
   const interp::Rectangle& domain = contents_.domain;
   const auto field = field_to_search();
   MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
-  for (const int step : each_below(kSteps)) {
+  for (int step = 0; step < kSteps; ++step) {
     const auto found = field->at(mark);
     if (!found) return failed(found);
     const MapLengths& here = found->here;
