@@ -7,7 +7,7 @@
 /// \code
 ///   if (contains(members, cause)) ...
 ///   stable_sort(models, descending(&CandidateModel::log_weight));
-///   design.col(as_index(k)) = columns[as_size(chosen)];
+///   for (const auto k : each_index(columns)) design.col(as_index(k)) = columns[k];
 /// \endcode
 #pragma once
 
@@ -20,17 +20,25 @@
 #include <type_traits>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
-/// Of a position, or of an enumerator in a table.
-template <class T>
-requires std::integral<T> || std::is_enum_v<T>
-constexpr std::size_t as_size(T position) { return static_cast<std::size_t>(position); }
-constexpr Index as_index(std::integral auto position) { return static_cast<Index>(position); }
+/// Positions in a list, of rows in a matrix and of its columns; a flag for each of a list.
+using Indices = std::vector<std::size_t>;
+using Rows = std::vector<Index>;
+using ColumnSet = std::vector<Index>;
+using Flags = std::vector<bool>;
 
+/// A whole number, or an enumerator by its place in the list of its enumeration.
+template <class T>
+concept Countable = std::integral<T> || std::is_enum_v<T>;
+constexpr std::size_t as_size(Countable auto position) {
+  return static_cast<std::size_t>(position);
+}
+constexpr Index as_index(Countable auto position) { return static_cast<Index>(position); }
+constexpr int as_int(Countable auto count) { return static_cast<int>(count); }
 constexpr double as_double(std::integral auto count) { return static_cast<double>(count); }
 
 template <class Container, class Value>
@@ -108,6 +116,27 @@ std::vector<Integer> numbers_below(std::integral auto count) {
   std::iota(all.begin(), all.end(), Integer{0});
   return all;
 }
+
+/// The same to walk over, without a list of them.
+template <std::integral Integer>
+class Below {
+ public:
+  struct Iterator {
+    Integer at;
+    constexpr Integer operator*() const { return at; }
+    constexpr Iterator& operator++() { return ++at, *this; }
+    constexpr bool operator!=(Iterator other) const { return at != other.at; }
+  };
+  constexpr explicit Below(Integer count) : count_(std::max(count, Integer{0})) {}
+  constexpr Iterator begin() const { return {0}; }
+  constexpr Iterator end() const { return {count_}; }
+
+ private:
+  Integer count_;
+};
+constexpr auto each_below(std::integral auto count) { return Below(count); }
+/// The positions in a list.
+constexpr auto each_index(const auto& all) { return each_below(std::size(all)); }
 
 /// Each value once, in ascending order.
 template <class Container>

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -20,7 +20,7 @@ template <class Position>
 Vector2d vector_of(const Position& at) {
   return {at.x_mm, at.y_mm};
 }
-inline Vector2d vector_of(const model::ChainLengths& lengths) {
+inline Vector2d vector_of(const ChainLengths& lengths) {
   return {lengths.left_mm, lengths.right_mm};
 }
 
@@ -33,5 +33,9 @@ template <class A, class B>
 double distance_mm(const A& a, const B& b) {
   return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
 }
+
+// The index of a chain in a pair of rows or numbers: left, right.
+
+constexpr Index row_of(Side side) { return side == Side::left ? 0 : 1; }
 
 }  // namespace chaintrue::grid

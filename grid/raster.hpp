@@ -19,7 +19,7 @@
 namespace chaintrue::grid {
 
 /// The bed, with `beyond_mm` more on each side.
-inline interp::Rectangle area_of(const model::Bed& bed, double beyond_mm = 0.0) {
+inline interp::Rectangle area_of(const Bed& bed, double beyond_mm = 0.0) {
   const double x = 0.5 * bed.width_mm + beyond_mm, y = 0.5 * bed.height_mm + beyond_mm;
   return {-x, x, -y, y};
 }
@@ -33,7 +33,7 @@ interp::ConvexHull hull_of(const Points& points) {
 }
 
 /// Widens `area` to hold `mark`.
-inline void take_in(interp::Rectangle& area, model::MarkPoint mark) {
+inline void take_in(interp::Rectangle& area, MarkPoint mark) {
   area = {std::min(area.x_min, mark.x_mm), std::max(area.x_max, mark.x_mm),
           std::min(area.y_min, mark.y_mm), std::max(area.y_max, mark.y_mm)};
 }
@@ -43,14 +43,14 @@ enum class RasterOf { nodes, cells };
 
 /// Row by row from y_min, each from x_min. A single row or column of nodes lies in the middle.
 /// Symmetric about the middle to the last bit, and exactly there where a row or column is.
-inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over, int columns, int rows,
-                                            RasterOf of) {
+inline std::vector<MarkPoint> raster(const interp::Rectangle& over, int columns, int rows,
+                                     RasterOf of) {
   const auto share = [of](int i, int count) {
     if (of == RasterOf::cells) return (i + 0.5) / count - 0.5;
     return count > 1 ? as_double(i) / (count - 1) - 0.5 : 0.0;
   };
   const double x = 0.5 * (over.x_min + over.x_max), y = 0.5 * (over.y_min + over.y_max);
-  std::vector<model::MarkPoint> points;
+  std::vector<MarkPoint> points;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       points.push_back(
@@ -61,8 +61,8 @@ inline std::vector<model::MarkPoint> raster(const interp::Rectangle& over, int c
 }
 
 /// In whole millimetres, as places are typed and marked, none farther out than before.
-inline std::vector<model::MarkPoint> whole_mm(std::vector<model::MarkPoint> points) {
-  for (model::MarkPoint& point : points) point = {std::trunc(point.x_mm), std::trunc(point.y_mm)};
+inline std::vector<MarkPoint> whole_mm(std::vector<MarkPoint> points) {
+  for (MarkPoint& point : points) point = {std::trunc(point.x_mm), std::trunc(point.y_mm)};
   return points;
 }
 

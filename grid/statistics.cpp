@@ -2,7 +2,6 @@
 #include "grid/statistics.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
 
@@ -71,7 +70,7 @@ double rounding_sigma_mm(const std::vector<double>& readings_mm) {
   for (const double chosen : kChosenMm)
     if (are_multiples(readings_mm, chosen)) return 0.0;
   std::vector<double> steps{kInchMm / 16.0, kInchMm / 32.0, kInchMm / 64.0};
-  for (int decade = 0; decade < kDecades; ++decade) {
+  for (const int decade : each_below(kDecades)) {
     for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
   }
   sort(steps, std::greater<>());

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

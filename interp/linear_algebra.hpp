@@ -8,7 +8,7 @@
 ///   const linear::Cholesky noise(linear::one_plus_outer(scaled));       // 1 + S S' = L L'
 ///   noise.half_solve_in_place(design);                                  // L^-1 design
 ///   const Eigen::MatrixXd normal = linear::one_plus_gram(design);       // 1 + A'A
-///   const Eigen::VectorXd right = linear::product(linear::transposed(design), data);
+///   const Eigen::VectorXd right = linear::inner(design, data);
 ///
 /// Arguments may be blocks; those whose columns are contiguous are not copied. Matrices may have no
 /// rows or columns. Deterministic: same processor, same bytes, from any number of threads.
@@ -57,6 +57,11 @@ Like<B> product(const Operand& a, const B& b) {
   Like<B> c = Like<B>::Zero(a.rows(), right.columns());
   add_product(c, 1.0, a, right);
   return c;
+}
+/// a' b
+template <class B>
+Like<B> inner(const Operand& a, const B& b) {
+  return product(transposed(a), b);
 }
 /// c += scale A A' for a symmetric c
 void add_outer(MatrixXd& c, double scale, const Operand& a);

@@ -48,3 +48,12 @@ struct PerSide {
 inline constexpr Side kSides[] = {Side::left, Side::right};
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::BedPoint;
+using model::ChainLengths;
+using model::kSides;
+using model::MarkPoint;
+using model::PerSide;
+using model::Side;
+}  // namespace chaintrue

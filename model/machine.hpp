@@ -133,3 +133,9 @@ void require_none(const std::vector<MachineProblem>& problems);
 [[nodiscard]] std::vector<MachineProblem> problems_of(const Machine& machine);
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::AppliedEffect;
+using model::Bed;
+using model::Machine;
+}  // namespace chaintrue

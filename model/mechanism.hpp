@@ -233,3 +233,8 @@ inline constexpr double kParameterShiftSigma = 5.0;
     const ToolPosition& start, const std::vector<bool>& counting = {});
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::Mechanism;
+using model::ToolPosition;
+}  // namespace chaintrue

@@ -150,3 +150,8 @@ using VisitFailure = Failure<PoseReason, std::size_t>;
     const std::function<void(std::size_t read)>& on_progress = {});
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::ReadingModel;
+using model::Setting;
+}  // namespace chaintrue

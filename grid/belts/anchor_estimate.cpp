@@ -8,17 +8,13 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
 namespace chaintrue::grid::belts {
-
-using model::Belt;
-using model::FramePoint;
-using model::kBelts;
 
 namespace {
 
@@ -41,24 +37,22 @@ bool is_upright_frame(const AnchorVector& a) {
 }
 
 /// The end of a taped distance, for any mechanism.
-observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& end) {
+observation::TapeEnd end_of(const BeltMachine& machine, const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
-  if (const auto* belt = std::get_if<Belt>(&end))
-    return observation::AtFixedPoint{static_cast<std::size_t>(*belt)};
+  if (const auto* belt = std::get_if<Belt>(&end)) return observation::AtFixedPoint{as_size(*belt)};
   return hole_at(machine, std::get<CutHole>(end).commanded);
 }
 
-observation::TapedDistance taped_between(const model::BeltMachine& machine,
-                                         const BeltDistance& distance) {
+observation::TapedDistance taped_between(const BeltMachine& machine, const BeltDistance& distance) {
   return {end_of(machine, distance.from), end_of(machine, distance.to), distance.distance_mm,
           distance.sigma_mm};
 }
 
 }  // namespace
 
-observation::AtHole hole_at(const model::BeltMachine& in_force, model::BedPoint command) {
-  const model::FramePoint meant = model::to_frame(in_force, command);
-  const model::ToolPosition at{meant.x_mm, meant.y_mm};
+observation::AtHole hole_at(const BeltMachine& in_force, BedPoint command) {
+  const FramePoint meant = model::to_frame(in_force, command);
+  const ToolPosition at{meant.x_mm, meant.y_mm};
   const auto paid_out =
       model::make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
   constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
@@ -68,10 +62,10 @@ observation::AtHole hole_at(const model::BeltMachine& in_force, model::BedPoint 
 }
 
 void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
-  const model::BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
+  const BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
   const auto readings = readings_of(belts, fit.counting, fit.residual_sigma_mm);
   const observation::View view(mechanism_at(belts, fit.state));
-  std::vector<bool> is_placed(belts.points.size(), false);
+  Flags is_placed(belts.points.size(), false);
   fit.state.places.resize(belts.points.size());
   for (const auto& block : readings.blocks()) {
     const auto line = readings.block_line(view, block, false);
@@ -81,7 +75,7 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
       is_placed[point] = true;
     }
   }
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     if (!is_placed[k]) fit.state.places[k] = nearest_place(machine, belts.points[k], kAllBelts);
   }
 }
@@ -165,7 +159,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   for (std::size_t out = 0; out < most; ++out) {
     if (frame.is_sound && frame.residual_sigma_mm < kPlausibleSpreadMm) break;
     std::optional<AnchorFit> best;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (const std::size_t k : each_below(count)) {
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
       fewer[k] = {};
@@ -198,12 +192,11 @@ std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
 }  // namespace
 
 observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Counting& counting,
-                                            double sigma_mm,
-                                            const std::vector<model::FramePoint>& about) {
+                                            double sigma_mm, const std::vector<FramePoint>& about) {
   std::vector<observation::LengthsAtPlace> places;
   bool ordered = !belts.points.empty();
   const std::optional<BeltPull> reference = reference_pull(belts);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     const BeltPoint& point = belts.points[k];
     observation::LengthsAtPlace place;
     place.index = k;
@@ -211,13 +204,13 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
     place.lengths_mm.resize(std::ssize(kBelts));
     const bool all_count = readings_counting(counting.at(k)) == 4;
     for (const Belt belt : kBelts) {
-      place.lengths_mm[static_cast<Index>(belt)] = point.lengths_mm[belt];
+      place.lengths_mm[as_index(belt)] = point.lengths_mm[belt];
       if (!all_count) place.counting.push_back(counting[k][belt]);
       place.visit.pulled.push_back(is_pulled(point, belt));
     }
     place.visit.order = point.order.value_or(0);
     place.visit.pull = pull_over(reference, point);
-    if (!about.empty()) place.about = model::ToolPosition{about.at(k).x_mm, about.at(k).y_mm};
+    if (!about.empty()) place.about = ToolPosition{about.at(k).x_mm, about.at(k).y_mm};
     ordered = ordered && point.order.has_value();
     places.push_back(std::move(place));
   }
@@ -227,9 +220,8 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
   return {std::move(places), ordered, {.length_mm = sigma_mm}, 0.0, std::move(distances)};
 }
 
-std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
-                                                     const FrameState& state) {
-  model::BeltMachine unknown = belts.machine;
+std::shared_ptr<const Mechanism> mechanism_at(const MeasuredBelts& belts, const FrameState& state) {
+  BeltMachine unknown = belts.machine;
   unknown.anchors_known = false;
   VectorXd values = state.anchors;
   if (belts.distances.empty()) return model::make_belt_mechanism(unknown)->with_values(values);
@@ -240,10 +232,10 @@ std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
 }
 
 std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
-                                                     const model::Mechanism& mechanism,
+                                                     const Mechanism& mechanism,
                                                      const FrameState& state,
                                                      const BeltDistance& distance) {
-  const auto place_of = [&state](const BeltEnd& end) -> model::ToolPosition {
+  const auto place_of = [&state](const BeltEnd& end) -> ToolPosition {
     const auto* index = std::get_if<std::size_t>(&end);
     if (index == nullptr) return {};
     return {state.places.at(*index).x_mm, state.places.at(*index).y_mm};
@@ -298,9 +290,9 @@ std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
   return with_tape(belts, std::move(less));
 }
 
-FramePoint nearest_place(const model::BeltMachine& machine, const BeltPoint& point,
-                         const model::PerBelt<bool>& counting) {
-  model::PerBelt<double> spans;
+FramePoint nearest_place(const BeltMachine& machine, const BeltPoint& point,
+                         const PerBelt<bool>& counting) {
+  PerBelt<double> spans;
   for (const Belt belt : kBelts) {
     spans[belt] = model::span_of(machine, belt, point.lengths_mm[belt])
                       .value_or(point.lengths_mm[belt] + model::reach_mm(machine));

@@ -25,8 +25,8 @@ namespace chaintrue::grid::belts {
 
 /// Where the four spans of a point come nearest to one another, from where those of the lower
 /// anchors, or of the upper, cross.
-model::FramePoint nearest_place(const model::BeltMachine& machine, const BeltPoint& point,
-                                const model::PerBelt<bool>& counting);
+FramePoint nearest_place(const BeltMachine& machine, const BeltPoint& point,
+                         const PerBelt<bool>& counting);
 
 /// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
 /// the lengths.
@@ -37,19 +37,18 @@ std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
 /// std::invalid_argument with both distances and positions.
 observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Counting& counting,
                                             double sigma_mm = 1.0,
-                                            const std::vector<model::FramePoint>& about = {});
+                                            const std::vector<FramePoint>& about = {});
 
 /// Four belts at a state, without priors; with a scale if there are distances.
-std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
-                                                     const FrameState& state);
+std::shared_ptr<const Mechanism> mechanism_at(const MeasuredBelts& belts, const FrameState& state);
 
 /// A hole that was commanded with these anchors in force, from what the controller paid out. A command
 /// that cannot be reached has no lengths, and no mechanism has a position for it.
-observation::AtHole hole_at(const model::BeltMachine& in_force, model::BedPoint command);
+observation::AtHole hole_at(const BeltMachine& in_force, BedPoint command);
 /// A distance as these belts predict it, with the points of the state; empty if a hole cannot be
 /// reached.
 std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
-                                                     const model::Mechanism& mechanism,
+                                                     const Mechanism& mechanism,
                                                      const FrameState& state,
                                                      const BeltDistance& distance);
 

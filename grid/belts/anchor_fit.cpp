@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::belts {
 
-AnchorVector anchors_of(const model::BeltMachine& machine) {
+AnchorVector anchors_of(const BeltMachine& machine) {
   const auto& a = machine.anchors;
   return {a.tl.x_mm, a.tl.y_mm, a.tr.x_mm, a.tr.y_mm, a.br.x_mm};
 }
 
-model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a) {
+BeltMachine with_anchors(BeltMachine machine, const AnchorVector& a) {
   machine.anchors.tl.x_mm = a[0];
   machine.anchors.tl.y_mm = a[1];
   machine.anchors.tr.x_mm = a[2];
@@ -24,10 +23,10 @@ model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& 
   return machine;
 }
 
-bool are_on_a_line(const std::vector<model::FramePoint>& places) {
+bool are_on_a_line(const std::vector<FramePoint>& places) {
   constexpr double kLineMm = 50.0;
   Matrix2Xd at(2, std::ssize(places));
-  for (std::size_t k = 0; k < places.size(); ++k) {
+  for (const auto k : each_index(places)) {
     at.col(as_index(k)) = vector_of(places[k]);
   }
   at.colwise() -= at.rowwise().mean().eval();

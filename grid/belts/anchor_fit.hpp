@@ -10,15 +10,15 @@
 
 #include "grid/belts/measured_belts.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::belts {
 
 /// For each point and belt, whether its reading counts.
-using Counting = std::vector<model::PerBelt<bool>>;
+using Counting = std::vector<PerBelt<bool>>;
 
 /// All four belts.
-inline constexpr model::PerBelt<bool> kAllBelts{true, true, true, true};
+inline constexpr PerBelt<bool> kAllBelts{true, true, true, true};
 /// tl x, tl y, tr x, tr y, br x.
 inline constexpr Index kAnchorUnknowns = 5;
 using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;
@@ -33,7 +33,7 @@ inline constexpr double kLeastSpreadMm = 1e-3;
 struct FrameState {
   AnchorVector anchors = AnchorVector::Zero();
   double log_scale = 0.0;
-  std::vector<model::FramePoint> places;
+  std::vector<FramePoint> places;
 };
 
 struct AnchorFit {
@@ -45,18 +45,16 @@ struct AnchorFit {
   bool is_sound = false;
 };
 
-AnchorVector anchors_of(const model::BeltMachine& machine);
-[[nodiscard]] model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a);
+AnchorVector anchors_of(const BeltMachine& machine);
+[[nodiscard]] BeltMachine with_anchors(BeltMachine machine, const AnchorVector& a);
 
 /// The row of a point's belt among all.
-inline Index row_of(std::size_t point, model::Belt belt) {
-  return 4 * as_index(point) + static_cast<Index>(belt);
-}
-inline int readings_counting(const model::PerBelt<bool>& counting) {
+inline Index row_of(std::size_t point, Belt belt) { return 4 * as_index(point) + as_index(belt); }
+inline int readings_counting(const PerBelt<bool>& counting) {
   return counting.tl + counting.tr + counting.bl + counting.br;
 }
 /// In a strip no wider than 50 mm: the anchors could lie on either side of it. \pre one place.
-bool are_on_a_line(const std::vector<model::FramePoint>& places);
+bool are_on_a_line(const std::vector<FramePoint>& places);
 /// Counted readings minus two per place minus five.
 Index checks_of(const Counting& counting);
 

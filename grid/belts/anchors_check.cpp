@@ -43,7 +43,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
         "these anchors were not fitted to belts, so the accuracy of new readings is unknown: fit "
         "belts, and check against those anchors");
   }
-  std::vector<model::AppliedEffect> effects;
+  std::vector<AppliedEffect> effects;
   for (const CauseInAnchorFit& cause : fit.causes)
     effects.push_back({cause.effect, cause.side, cause.parameters});
   const auto mechanism =

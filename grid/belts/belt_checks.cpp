@@ -4,24 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid {
-
-using model::Belt;
-using model::kBelts;
 
 const std::array<std::vector<BeltPair>, 9>& belt_swaps() {
   constexpr std::array<BeltPair, 6> kPairs = {{{Belt::tl, Belt::tr},
@@ -32,7 +28,7 @@ const std::array<std::vector<BeltPair>, 9>& belt_swaps() {
                                                {Belt::tr, Belt::bl}}};
   static const auto kSwaps = [&] {
     std::array<std::vector<BeltPair>, 9> swaps;
-    for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    for (const auto k : each_index(kPairs)) {
       swaps[k].push_back(kPairs[k]);
       swaps[kPairs.size() + k / 2].push_back(kPairs[k]);
     }
@@ -73,7 +69,7 @@ MeasuredBelts looked_at(const MeasuredBelts& belts) {
   few.distances.clear();
   few.points.clear();
   const std::size_t count = std::min(belts.points.size(), kMostLookedAt);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (const std::size_t i : each_below(count)) {
     few.points.push_back(belts.points[i * belts.points.size() / count]);
   }
   return few;
@@ -94,10 +90,10 @@ struct Frame {
   double far_from_commands_mm = 0.0;
 };
 
-double far_from_commands(const MeasuredBelts& belts, const std::vector<model::FramePoint>& places) {
+double far_from_commands(const MeasuredBelts& belts, const std::vector<FramePoint>& places) {
   Vector2d sum = Vector2d::Zero();
   std::vector<Vector2d> off;
-  for (std::size_t k = 0; k < places.size(); ++k) {
+  for (const auto k : each_index(places)) {
     if (!belts.points[k].commanded) continue;
     off.push_back(difference(places[k], *belts.points[k].commanded));
     sum += off.back();
@@ -108,7 +104,7 @@ double far_from_commands(const MeasuredBelts& belts, const std::vector<model::Fr
 
 /// A share of the extent of the commands: mirrored ones are off by as much as that.
 bool are_commands_far(const MeasuredBelts& belts, double far_mm) {
-  std::vector<model::FramePoint> origin(belts.points.size());
+  std::vector<FramePoint> origin(belts.points.size());
   const double reach_mm = far_from_commands(belts, origin);
   return reach_mm > 0.0 && far_mm > 0.5 * reach_mm;
 }
@@ -154,7 +150,7 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
     return a.residual_sigma_mm < b.residual_sigma_mm - kRoundingMm;
   };
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (const auto i : each_index(frames)) {
     // If exchanging one pair fixes it, two pairs are not considered.
     if (i == kSinglePairs && best) break;
     if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
@@ -181,8 +177,8 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
   // A lost digit or another frame; smaller errors are left to the fit.
   constexpr double kNowhereMm = 100.0;
   std::vector<NowherePoint> result;
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  const BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  for (const auto k : each_index(belts.points)) {
     int rejected = 0;
     for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
     if (rejected < 2) continue;
@@ -202,13 +198,13 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
 std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
                                              const belts::AnchorFit& frame) {
   std::vector<BeltQuestion> result;
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
   const double scale_mm = std::max(frame.residual_sigma_mm, 0.5);
   const double gross_mm = std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+  for (const auto k : each_index(belts.points)) {
     for (const Belt belt : kBelts) {
       if (frame.counting[k][belt]) continue;
-      model::PerBelt<bool> others = belts::kAllBelts;
+      PerBelt<bool> others = belts::kAllBelts;
       others[belt] = false;
       const auto place = belts::nearest_place(machine, belts.points[k], others);
       const auto reading = model::reading_at(machine, belt, place);
@@ -252,8 +248,8 @@ std::optional<Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
     return vector_of(anchor);
   }
   if (!belts.machine.anchors_known) return std::nullopt;
-  const model::FramePoint centre = model::centre_of(belts.machine);
-  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  const FramePoint centre = model::centre_of(belts.machine);
+  const BedPoint at = std::get<CutHole>(end).commanded;
   return Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
 }
 
@@ -321,12 +317,12 @@ std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
   const belts::FitDiagnostics view(untaped, frame);
   const auto by_belts_mm = distances_by_belts(belts, frame);
   std::vector<DistanceQuestion> result;
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+  for (const auto i : each_index(belts.distances)) {
     const double taped_mm = belts.distances[i].distance_mm;
     if (!by_belts_mm[i] || *by_belts_mm[i] < input_checks::kGrossMm) continue;
     const double factor = taped_mm / *by_belts_mm[i];
     std::vector<double> others;
-    for (std::size_t j = 0; j < by_belts_mm.size(); ++j) {
+    for (const auto j : each_index(by_belts_mm)) {
       if (j != i && by_belts_mm[j] && *by_belts_mm[j] >= input_checks::kGrossMm)
         others.push_back(belts.distances[j].distance_mm / *by_belts_mm[j]);
     }

@@ -15,7 +15,7 @@
 
 namespace chaintrue::grid {
 
-using BeltPair = std::pair<model::Belt, model::Belt>;
+using BeltPair = std::pair<Belt, Belt>;
 
 /// Likely exchanges: one pair, followed by its mirror image; then two pairs at once, which give a
 /// valid frame turned over.
@@ -50,7 +50,7 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const belts
 /// A reading that the other three belts contradict, and the writing error that would explain it.
 struct BeltQuestion {
   std::size_t point = 0;
-  model::Belt belt{};
+  Belt belt{};
   std::string sentence;
 };
 std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,

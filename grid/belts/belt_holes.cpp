@@ -16,8 +16,6 @@
 
 namespace chaintrue::grid::belts {
 
-using model::FramePoint;
-
 namespace {
 
 /// Writes the rows of a set from `row` on, after those of the sets before it; false if the machine
@@ -32,10 +30,10 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
   const FramePoint centre = model::centre_of(holes.machine);
   const auto count = std::ssize(holes.set.holes);
   const Index first = 2 * std::ssize(all.marks);
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   MatrixXd marks_by_frame = MatrixXd::Zero(2 * count, kFrameUnknowns);
   MatrixXd laid(2 * count, 3);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const auto place = observation::placed_hole(
         *mechanism, hole_at(holes.machine, holes.set.holes[as_size(i)].commanded));
     if (!place) return false;
@@ -45,11 +43,11 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
         {factor * (place->at.x() - origin.x_mm), factor * (place->at.y() - origin.y_mm)});
     marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_parameter;
     marks_by_frame.block<2, 1>(2 * i, kAnchorUnknowns) = mark;
-    laid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(marks.back());
+    laid.middleRows<2>(2 * i) = SheetPlacement{}.sensitivity(marks.back());
   }
   const observation::DistanceGeometry geometry = observation::distance_geometry(holes.set, marks);
   const Index own = geometry.predicted_mm.size();
-  for (Index k = 0; k < own; ++k) {
+  for (const Index k : each_below(own)) {
     all.residual_mm[row + k] =
         length_of(holes.set, holes.set.distances[as_size(k)]) - geometry.predicted_mm[k];
   }
@@ -93,8 +91,7 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const An
   return all;
 }
 
-MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
-                          const std::vector<bool>& counting) {
+MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise, const Flags& counting) {
   MatrixXd covariance = noise.factor * noise.factor * rows.noise_mm2 + rows.shared_mm2;
   if (noise.size_mm > 0.0) {
     const MatrixXd kernel = displacement_kernel(rows.marks, rows.marks, noise.reach_mm);
@@ -104,7 +101,7 @@ MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
       covariance += noise.size_mm * noise.size_mm * linear::carried(by_axis, kernel);
     }
   }
-  for (std::size_t k = 0; k < counting.size(); ++k) {
+  for (const auto k : each_index(counting)) {
     if (!counting[k]) covariance(as_index(k), as_index(k)) += kRejectedMm2;
   }
   return covariance;

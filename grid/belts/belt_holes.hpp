@@ -29,14 +29,14 @@
 #include <vector>
 
 #include "grid/belts/anchor_fit.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_holes.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
 struct BeltHoles {
   /// With the anchors and scales in force when the holes were cut.
-  model::BeltMachine machine;
+  BeltMachine machine;
   /// Its machine hangs on chains and is ignored.
   MeasuredHoles set;
 };
@@ -54,13 +54,13 @@ inline constexpr double kRejectedMm2 = 1e8;
 
 /// The distances of all sets about a frame, one set after the other; mm.
 struct TapedRows {
-  VectorXd residual_mm;  ///< n, taped (less the tape's zero offset) less predicted
-  MatrixXd by_frame;     ///< n x 6, d(predicted)/d(a, s)
-  MatrixXd by_mark;      ///< n x 2 N
-  MatrixXd by_sheet;     ///< n x 3, by its own sheet's shift in x and y, and its turn
-  std::vector<model::MarkPoint> marks;  ///< of all holes, from where the first set's commands count
-  MatrixXd noise_mm2;                   ///< the factor of f^2 in (1)
-  MatrixXd shared_mm2;                  ///< of (1) what sizes, zeros and sheets share
+  VectorXd residual_mm;          ///< n, taped (less the tape's zero offset) less predicted
+  MatrixXd by_frame;             ///< n x 6, d(predicted)/d(a, s)
+  MatrixXd by_mark;              ///< n x 2 N
+  MatrixXd by_sheet;             ///< n x 3, by its own sheet's shift in x and y, and its turn
+  std::vector<MarkPoint> marks;  ///< of all holes, from where the first set's commands count
+  MatrixXd noise_mm2;            ///< the factor of f^2 in (1)
+  MatrixXd shared_mm2;           ///< of (1) what sizes, zeros and sheets share
 };
 /// Empty if the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
 /// machine whose anchors in force are not known.
@@ -74,6 +74,5 @@ struct TapedNoise {
   double reach_mm = 1.0;
 };
 /// (1), with rejected distances given no weight.
-MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise,
-                          const std::vector<bool>& counting);
+MatrixXd taped_covariance(const TapedRows& rows, const TapedNoise& noise, const Flags& counting);
 }  // namespace chaintrue::grid::belts

@@ -5,32 +5,28 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid {
 
-using model::BedPoint;
-using model::Belt;
 using model::BeltFailure;
-using model::FramePoint;
-using model::MarkPoint;
 
 namespace {
 
 using belts::kAnchorUnknowns;
 using belts::kFrameUnknowns;
 
-double span_mm(const model::BeltMachine& machine, Belt belt, FramePoint place) {
+double span_mm(const BeltMachine& machine, Belt belt, FramePoint place) {
   const model::Anchor& anchor = machine.anchors[belt];
   return distance_mm(place, anchor);
 }
 
-tl::expected<FramePoint, BeltFailure> end_of_spans(const model::BeltMachine& machine,
-                                                   double left_mm, double right_mm) {
+tl::expected<FramePoint, BeltFailure> end_of_spans(const BeltMachine& machine, double left_mm,
+                                                   double right_mm) {
   const auto& a = machine.anchors;
   return model::crossing({a.tl.x_mm, a.tl.y_mm}, left_mm, {a.tr.x_mm, a.tr.y_mm}, right_mm);
 }
@@ -58,7 +54,7 @@ MatrixXd covariance_of(const BeltsFit& fit, const HolesWithBelts* holes) {
 }
 
 /// The tool comes no nearer to an anchor than arm and extension are long.
-interp::Rectangle domain_of(const model::BeltMachine& machine) {
+interp::Rectangle domain_of(const BeltMachine& machine) {
   const FramePoint centre = model::centre_of(machine);
   const auto& a = machine.anchors;
   const double reach = model::reach_mm(machine);
@@ -77,7 +73,7 @@ struct Reference {
 /// The tool's position by a fit, for any values of its unknowns.
 class Placing {
  public:
-  Placing(const BeltsFit& fit, const HolesWithBelts* holes, model::BeltMachine in_force)
+  Placing(const BeltsFit& fit, const HolesWithBelts* holes, BeltMachine in_force)
       : in_force_(std::move(in_force)) {
     if (holes != nullptr) {
       displacement_ = holes->displacement;
@@ -90,7 +86,7 @@ class Placing {
 
   /// `lengths` is what the mechanism's lengths count.
   PlacedMechanism at(const VectorXd& unknowns, model::BeltLengths lengths) const {
-    model::BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
+    BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
     const FramePoint centre = model::centre_of(in_force_);
     SheetInFrame sheet{{}, std::exp(unknowns[kAnchorUnknowns]), {centre.x_mm, centre.y_mm}};
     if (displacement_) {
@@ -134,7 +130,7 @@ class Placing {
     }
   }
 
-  void lay(const model::BeltMachine& machine, SheetInFrame& placed) const {
+  void lay(const BeltMachine& machine, SheetInFrame& placed) const {
     if (by_edges_) {
       placed.laid = {by_edges_->x(), by_edges_->y(), by_edges_->z()};
       return;
@@ -150,14 +146,13 @@ class Placing {
     if (from.size() >= 2) placed.laid = laid_on(from, to);
   }
 
-  model::BeltMachine in_force_;
+  BeltMachine in_force_;
   std::vector<Reference> references_;
   std::optional<DisplacementParts> displacement_;
   std::optional<Vector3d> by_edges_;
 };
 
-MechanismMap map_of(const BeltsFit& fit, const HolesWithBelts* holes,
-                    const model::BeltMachine& in_force) {
+MechanismMap map_of(const BeltsFit& fit, const HolesWithBelts* holes, const BeltMachine& in_force) {
   using model::BeltLengths;
   const Placing placing(fit, holes, in_force);
   const VectorXd unknowns = unknowns_of(fit, holes);
@@ -169,15 +164,15 @@ MechanismMap map_of(const BeltsFit& fit, const HolesWithBelts* holes,
           MeasuredArea(placing.measured(), domain_of(in_force))};
 }
 
-model::BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
+BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
   return paying_out(holes != nullptr ? holes->machine : machine_in_force(fit));
 }
 
 }  // namespace
 
-model::BeltMachine machine_in_force(const BeltsFit& fit) {
+BeltMachine machine_in_force(const BeltsFit& fit) {
   belts::AnchorVector stated;
-  for (Index i = 0; i < kAnchorUnknowns; ++i) {
+  for (const Index i : each_below(kAnchorUnknowns)) {
     const auto& one = fit.coordinates[as_size(i)].stated_mm;
     if (!one) throw precondition("anchors in force that nobody gave");
     stated[i] = *one;
@@ -185,7 +180,7 @@ model::BeltMachine machine_in_force(const BeltsFit& fit) {
   return belts::with_anchors(fit.machine, stated);
 }
 
-model::BeltMachine paying_out(model::BeltMachine machine) {
+BeltMachine paying_out(BeltMachine machine) {
   machine.lengths = model::BeltLengths::belt;
   return machine;
 }

@@ -29,10 +29,10 @@
 namespace chaintrue::grid {
 
 /// The machine as stated before the fit. \throws std::invalid_argument if it was not stated.
-model::BeltMachine machine_in_force(const BeltsFit& fit);
+BeltMachine machine_in_force(const BeltsFit& fit);
 
 /// A machine whose upper lengths are the belts' own.
-model::BeltMachine paying_out(model::BeltMachine machine);
+BeltMachine paying_out(BeltMachine machine);
 
 /// Immutable, thread safe. Lengths are tl, tr, bl, br; the lower two follow the tool.
 class BeltMap final : public MechanismMap {
@@ -42,12 +42,12 @@ class BeltMap final : public MechanismMap {
   explicit BeltMap(const BeltsFit& fit, const HolesWithBelts* holes = nullptr);
 
   /// Without a scale from a tape, the tool's error in true millimetres is unknown.
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(BedPoint point) const override;
   /// The controller's machine when the places or holes were commanded.
-  const model::BeltMachine& in_force() const { return in_force_; }
+  const BeltMachine& in_force() const { return in_force_; }
 
  private:
-  model::BeltMachine in_force_;
+  BeltMachine in_force_;
   bool knows_scale_;
 };
 

@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
-#include "grid/belts/belt_holes.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
@@ -35,7 +32,7 @@ struct TapedState {
   FrameState frame;
   TapedRows rows;
   TapedNoise noise;
-  std::vector<bool> counting;
+  Flags counting;
 };
 
 /// (2) and (3) about a state.
@@ -43,7 +40,7 @@ struct TapedMarginal {
   VectorXd residual_mm;  ///< r_b
   MatrixXd inverse;      ///< V^-1
   double log_likelihood = 0.0;
-  std::vector<bool> counting;
+  Flags counting;
 
   double left_out_mm(Index k) const { return (inverse.row(k) * residual_mm)(0) / inverse(k, k); }
   /// The tape's variance plus that of the prediction, without what was added for rejection.
@@ -89,10 +86,10 @@ double log_prior(double factor, double dof) {
   return -dof * std::log(factor) - 0.5 * dof / (factor * factor);
 }
 
-double extent_mm(const std::vector<model::MarkPoint>& marks) {
+double extent_mm(const std::vector<MarkPoint>& marks) {
   double widest = 0.0;
-  for (const model::MarkPoint& a : marks) {
-    for (const model::MarkPoint& b : marks) widest = std::max(widest, distance_mm(a, b));
+  for (const MarkPoint& a : marks) {
+    for (const MarkPoint& b : marks) widest = std::max(widest, distance_mm(a, b));
   }
   return widest;
 }
@@ -182,7 +179,7 @@ std::optional<std::size_t> worst_of(const KnownFrame& known, const TapedState& s
   const TapedMarginal now = marginal(known, state);
   std::optional<std::size_t> worst;
   double most = estimation::kBadDistanceSigmas;
-  for (std::size_t k = 0; k < state.counting.size(); ++k) {
+  for (const auto k : each_index(state.counting)) {
     const auto row = as_index(k);
     const double sigmas = std::abs(now.left_out_mm(row)) / now.left_out_sigma_mm(row);
     if (!state.counting[k] || sigmas <= most) continue;
@@ -216,9 +213,6 @@ std::optional<TapedState> converged_state(const KnownFrame& known,
 
 namespace chaintrue::grid {
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 using belts::kAnchorUnknowns;
@@ -232,7 +226,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
                 const MatrixXd& covariance, belts::AnchorFit frame, BeltsFit& fit) {
   fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
-  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+  for (const auto i : each_index(fit.coordinates)) {
     const auto row = as_index(i);
     AnchorCoordinate& coordinate = fit.coordinates[i];
     coordinate.fitted_mm = state.frame.anchors[row];
@@ -251,7 +245,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   belts::place_all(measured, frame);
   const belts::FitDiagnostics view(measured, frame);
   const belts::FitResiduals& there = view.equations();
-  for (std::size_t k = 0; k < fit.places.size(); ++k) {
+  for (const auto k : each_index(fit.places)) {
     fit.places[k].at = frame.state.places[k];
     for (const Belt belt : kBelts)
       fit.places[k].belts[belt].residual_mm = there.residual_mm[belts::row_of(k, belt)];
@@ -260,7 +254,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   if (fit.causes.empty())
     fit.rms_mm = rms(std::vector<double>(there.residual_mm.begin(), there.residual_mm.end()));
   if (!fit.scale || measured.distances.empty()) return;
-  for (std::size_t i = 0; i < measured.distances.size(); ++i) {
+  for (const auto i : each_index(measured.distances)) {
     fit.scale->residuals_mm[i] =
         there.distance_residual[as_index(i)] * measured.distances[i].sigma_mm;
   }
@@ -279,8 +273,8 @@ MatrixXd posterior(const KnownFrame& known, const TapedState& state,
   if (smooth) {
     const MatrixXd kernel =
         displacement_kernel(state.rows.marks, state.rows.marks, state.noise.reach_mm);
-    for (Index i = 0; i < kernel.rows(); ++i) {
-      for (Index j = 0; j < kernel.cols(); ++j) {
+    for (const Index i : each_below(kernel.rows())) {
+      for (const Index j : each_below(kernel.cols())) {
         const double shared = state.noise.size_mm * state.noise.size_mm * kernel(i, j);
         prior.block<2, 2>(kFrameUnknowns + 2 * i, kFrameUnknowns + 2 * j) =
             shared * Matrix2d::Identity();
@@ -314,7 +308,7 @@ void fill_distances(const KnownFrame& known, const std::vector<BeltHoles>& sets,
   const TapedMarginal now = marginal(known, state);
   std::vector<double> left_out;
   Index row = 0;
-  for (std::size_t s = 0; s < sets.size(); ++s) {
+  for (const auto s : each_index(sets)) {
     for (const HoleDistance& distance : sets[s].set.distances) {
       BeltTapedDistance one{s,
                             words_of(sets[s].set, distance),
@@ -330,7 +324,7 @@ void fill_distances(const KnownFrame& known, const std::vector<BeltHoles>& sets,
   }
   found.left_out_rms_mm = rms(left_out);
   const MeasuredHoles& first = sets.front().set;
-  for (std::size_t i = 0; i < first.holes.size(); ++i)
+  for (const auto i : each_index(first.holes))
     found.holes.push_back({first.holes[i].name, first.holes[i].commanded, state.rows.marks[i]});
 }
 
@@ -369,14 +363,14 @@ tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const Measure
     stated.covariance =
         kStatedAnchorMm * kStatedAnchorMm * MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns);
     stated.fit.machine = measured.machine;
-    for (std::size_t i = 0; i < stated.fit.coordinates.size(); ++i) {
+    for (const auto i : each_index(stated.fit.coordinates)) {
       stated.fit.coordinates[i].name = belts::kCoordinateNames[i];
       stated.fit.coordinates[i].stated_mm = stated.frame.state.anchors[as_index(i)];
     }
     return stated;
   }
   auto fit = fit_belts(measured);
-  if (!fit) return tl::unexpected(fit.error());
+  if (!fit) return failed(fit);
   auto frame = belts::fit_anchors_robustly(measured);
   MatrixXd covariance = belts::FitDiagnostics(measured, *frame).covariance();
   return BeltsByThemselves{*std::move(fit), *std::move(frame), std::move(covariance)};

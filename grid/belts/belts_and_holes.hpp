@@ -39,8 +39,8 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belt_holes.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/tool_displacement.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -56,10 +56,10 @@ inline constexpr std::size_t kMostTapedByBelts = 400;
 /// A fitted hole.
 struct BeltHole {
   std::string name;
-  model::BedPoint commanded;
+  BedPoint commanded;
   /// Where the upper two belts put it, relative to the origin of commands, mm; the sheet may lie
   /// elsewhere.
-  model::MarkPoint mark;
+  MarkPoint mark;
 };
 
 /// A distance of one set of holes, in the order of the sets.
@@ -76,7 +76,7 @@ struct BeltTapedDistance {
 struct HolesWithBelts {
   /// The machine in force when the first set was cut; the origin of commands is where its frame's
   /// diagonals cross.
-  model::BeltMachine machine;
+  BeltMachine machine;
   std::vector<BeltHole> holes;  ///< of the first set, which defines the frame
   std::vector<BeltTapedDistance> distances;
   double noise_factor = 1.0;  ///< relative to the stated noise of tape and holes

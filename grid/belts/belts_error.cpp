@@ -5,8 +5,8 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/controller_error.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_controller.hpp"
 
 namespace chaintrue::grid {
@@ -37,7 +37,7 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
   if (knows_today) {
     const model::BeltController controller(map.in_force());
     const auto errors = controller_errors(
-        [&controller](model::BedPoint at) -> std::optional<model::ChainLengths> {
+        [&controller](BedPoint at) -> std::optional<ChainLengths> {
           const auto paid_out = controller.lengths(at);
           return paid_out ? std::optional(*paid_out) : std::nullopt;
         },
@@ -49,8 +49,8 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
                                 : std::nullopt;
   VectorXd left_mm = VectorXd::Zero(2 * std::ssize(places));
   double worst_mm = -1.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const model::BedPoint at = places[i].commanded;
+  for (const auto i : each_index(places)) {
+    const BedPoint at = places[i].commanded;
     const auto row = 2 * as_index(i);
     if (displacement) left_mm.segment<2>(row) = displacement->at({at.x_mm, at.y_mm});
     const double error_mm = std::hypot(places[i].spread_mm.norm(), left_mm.segment<2>(row).norm());

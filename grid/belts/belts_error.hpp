@@ -24,7 +24,7 @@ namespace chaintrue::grid {
 struct BeltsError {
   std::optional<ErrorSummary> today;  ///< empty if the anchors in force are not known
   ErrorSummary expected;
-  model::BedPoint worst_at;  ///< of `expected`
+  BedPoint worst_at;  ///< of `expected`
 };
 
 /// Empty with fewer than three places and no holes, or if no raster point was measured. `holes` may

@@ -5,15 +5,10 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
-#include "grid/belts/fit_report.hpp"
 #include "grid/belts/repeated_pulls.hpp"
-#include "grid/containers.hpp"
 #include "grid/failed.hpp"
 
 namespace chaintrue::grid {
-
-using model::Belt;
-using model::kBelts;
 
 namespace {
 

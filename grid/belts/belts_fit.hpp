@@ -36,7 +36,8 @@
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
+#include "interp/eigen.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {
@@ -54,7 +55,7 @@ struct AnchorCoordinate {
   double fitted_mm = 0.0;
   double sigma_mm = 0.0;
   /// Share of its variance from each belt's readings; the sum is 1.
-  model::PerBelt<double> variance_share;
+  PerBelt<double> variance_share;
 };
 
 /// A reading of one belt.
@@ -66,14 +67,14 @@ struct BeltResidual {
 };
 
 struct FittedPlace {
-  model::FramePoint at;
+  FramePoint at;
   Matrix2d covariance_mm2 = Matrix2d::Zero();
-  model::PerBelt<BeltResidual> belts;
+  PerBelt<BeltResidual> belts;
 };
 
 struct BadBeltReading {
   std::size_t point = 0;
-  model::Belt belt = model::Belt::tl;
+  Belt belt = Belt::tl;
   double residual_mm = 0.0;  ///< minus the prediction from all others
 };
 
@@ -102,17 +103,17 @@ struct CauseInAnchorFit {
 };
 
 struct BeltsFit {
-  model::BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
+  BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
   std::array<AnchorCoordinate, 5> coordinates;
   Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
-  double residual_sigma_mm = 0.0;       ///< (1)
-  int checks = 0;                       ///< the denominator of (1)
-  double rms_mm = 0.0;                  ///< of all readings, as in the machine's message
-  model::PerBelt<double> rms_of_mm;     ///< of those that count
-  std::vector<FittedPlace> places;      ///< of each point
-  std::vector<BadBeltReading> bad;      ///< rejected, the worst first
-  std::vector<std::size_t> bad_points;  ///< where fewer than three readings agree
-  std::optional<BeltScale> scale;       ///< empty: not known
+  double residual_sigma_mm = 0.0;   ///< (1)
+  int checks = 0;                   ///< the denominator of (1)
+  double rms_mm = 0.0;              ///< of all readings, as in the machine's message
+  PerBelt<double> rms_of_mm;        ///< of those that count
+  std::vector<FittedPlace> places;  ///< of each point
+  std::vector<BadBeltReading> bad;  ///< rejected, the worst first
+  Indices bad_points;               ///< where fewer than three readings agree
+  std::optional<BeltScale> scale;   ///< empty: not known
   BeltPrediction one_left_out;
   std::optional<BeltPrediction>
       half_left_out;  ///< either half by the other; with ten places and more

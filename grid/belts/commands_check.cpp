@@ -6,19 +6,16 @@
 
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
-using model::Belt;
-using model::kBelts;
-
 struct ExpectedPlace {
-  model::PerBelt<double> read_mm;
-  model::PerBelt<double> expected_mm;
+  PerBelt<double> read_mm;
+  PerBelt<double> expected_mm;
 };
 
 std::vector<ExpectedPlace> expected_places(const MeasuredBelts& belts) {
@@ -35,7 +32,7 @@ std::vector<ExpectedPlace> expected_places(const MeasuredBelts& belts) {
 double typical_mm(const std::vector<ExpectedPlace>& places, const std::vector<BeltPair>& swap) {
   std::vector<double> off;
   for (const ExpectedPlace& place : places) {
-    model::PerBelt<double> read_mm = place.read_mm;
+    PerBelt<double> read_mm = place.read_mm;
     for (const BeltPair& pair : swap) std::swap(read_mm[pair.first], read_mm[pair.second]);
     for (const Belt belt : kBelts) off.push_back(std::abs(read_mm[belt] - place.expected_mm[belt]));
   }
@@ -102,7 +99,7 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
   const double upper_mm = against && against->places >= kFewestBeltPoints ? against->upper_mm : 0.0;
   const double far_mm = upper_mm > kUpperMm ? kFarWithCommandsMm : kFarMm;
   std::optional<OtherFrame> found;
-  for (Index i = 0; i < belts::kAnchorUnknowns; ++i) {
+  for (const Index i : each_below(belts::kAnchorUnknowns)) {
     const double difference_mm = std::abs(frame.state.anchors[i] - stated[i]);
     const double variance = view.covariance()(i, i);
     if (!(variance > 0.0) || difference_mm < far_mm ||

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/fit_diagnostics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "grid/belts/anchor_estimate.hpp"
-#include "grid/containers.hpp"
 #include "grid/estimation/reading_shifts.hpp"
+#include "grid/map/error_summary.hpp"
 #include "grid/statistics.hpp"
-#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -18,9 +17,9 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
   ReadingLines lines;
   lines.residual_mm.setZero(rows);
   lines.by_place.setZero(rows, 2);
-  const model::BeltMachine machine = with_anchors(belts.machine, state.anchors);
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    for (const model::Belt belt : model::kBelts) {
+  const BeltMachine machine = with_anchors(belts.machine, state.anchors);
+  for (const auto k : each_index(belts.points)) {
+    for (const Belt belt : kBelts) {
       const auto reading = model::reading_at(machine, belt, state.places[k]);
       if (!reading) continue;
       const Index row = row_of(k, belt);
@@ -52,20 +51,20 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
         linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
     block.left = block.line.by_parameter - block.line.by_position * block.by_unknown;
     precision_ += block.precision();
-    for (std::size_t p = 0; p < own.places.size(); ++p) {
+    for (const auto p : each_index(own.places)) {
       const std::size_t point = readings.readings()[own.places[p]].index;
       const auto slot = as_index(p);
       slots_[point] = Slot{blocks_.size(), slot};
-      equations_.residual_mm.segment<4>(row_of(point, model::Belt::tl)) =
+      equations_.residual_mm.segment<4>(row_of(point, Belt::tl)) =
           block.line.residual_mm.segment<4>(4 * slot);
-      equations_.by_place.middleRows<4>(row_of(point, model::Belt::tl)) =
+      equations_.by_place.middleRows<4>(row_of(point, Belt::tl)) =
           block.line.by_position.block<4, 2>(4 * slot, 2 * slot);
     }
     blocks_.push_back(std::move(block));
   }
   covariance_ = linear::PivotedCholesky(precision_).inverse();
   equations_.distance_residual.resize(std::ssize(belts.distances));
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+  for (const auto i : each_index(belts.distances)) {
     const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
     equations_.distance_residual[as_index(i)] =
         at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
@@ -81,13 +80,13 @@ Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
   return block.inverse.block<2, 2>(at, at) + linear::carried(gain, covariance_);
 }
 
-VectorXd FitDiagnostics::influence(std::size_t point, model::Belt belt) const {
+VectorXd FitDiagnostics::influence(std::size_t point, Belt belt) const {
   const double weight = 1.0 / (frame_.residual_sigma_mm * frame_.residual_sigma_mm);
   const Slot& slot = slots_[point].value();
   return weight * (covariance_ * blocks_[slot.block].left.row(slot.row(belt)).transpose());
 }
 
-BeltResidual FitDiagnostics::residual(std::size_t point, model::Belt belt) const {
+BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   BeltResidual result;
   const double r = equations_.residual_mm[row_of(point, belt)];
   result.residual_mm = r;
@@ -147,6 +146,152 @@ AnchorVector FitDiagnostics::anchors_without(std::size_t point) const {
   const VectorXd change =
       linear::PivotedCholesky(precision_ - block.precision()).solve(-block.gradient());
   return frame_.state.anchors + change.head<kAnchorUnknowns>();
+}
+
+namespace {
+
+void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
+  const AnchorVector stated = anchors_of(belts.machine);
+  const AnchorVector fitted = anchors_of(fit.machine);
+  Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
+  for (const auto k : each_index(belts.points)) {
+    for (const Belt belt : kBelts) {
+      if (!view.counts(k, belt)) continue;
+      squares.col(as_index(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
+    }
+  }
+  for (const auto i : each_index(fit.coordinates)) {
+    const auto row = as_index(i);
+    AnchorCoordinate& coordinate = fit.coordinates[i];
+    coordinate.name = kCoordinateNames[i];
+    if (belts.machine.anchors_known) coordinate.stated_mm = stated[row];
+    coordinate.fitted_mm = fitted[row];
+    coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
+    for (const Belt belt : kBelts) {
+      coordinate.variance_share[belt] = squares(row, as_index(belt)) / squares.row(row).sum();
+    }
+  }
+}
+
+void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
+  double square = 0.0;
+  PerBelt<double> squares;
+  PerBelt<int> counts;
+  for (const auto k : each_index(belts.points)) {
+    FittedPlace place{view.frame().state.places[k], view.place_covariance_mm2(k), {}};
+    std::vector<BadBeltReading> bad;
+    for (const Belt belt : kBelts) {
+      BeltResidual& residual = place.belts[belt];
+      residual = view.residual(k, belt);
+      square += residual.residual_mm * residual.residual_mm;
+      if (residual.counts) {
+        squares[belt] += residual.residual_mm * residual.residual_mm;
+        ++counts[belt];
+      } else {
+        bad.push_back({k, belt, residual.deleted_residual_mm});
+      }
+    }
+    // Two readings determine a place and leave no check.
+    if (bad.size() > 1) {
+      fit.bad_points.push_back(k);
+    } else {
+      append_all(fit.bad, bad);
+    }
+    fit.places.push_back(std::move(place));
+  }
+  fit.rms_mm = std::sqrt(square / (4.0 * as_double(belts.points.size())));
+  for (const Belt belt : kBelts) {
+    fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
+  }
+  stable_sort(fit.bad,
+              descending([](const BadBeltReading& one) { return std::abs(one.residual_mm); }));
+}
+
+void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view, const MatrixXd& covariance,
+                BeltsFit& fit) {
+  if (!view.has_scale()) return;
+  BeltScale scale;
+  scale.factor = std::exp(view.frame().state.log_scale);
+  scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
+  for (const auto i : each_index(belts.distances)) {
+    scale.residuals_mm.push_back(view.equations().distance_residual[as_index(i)] *
+                                 belts.distances[i].sigma_mm);
+  }
+  fit.scale = std::move(scale);
+}
+
+/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt
+/// that it takes does not count.
+void predict_point(const MeasuredBelts& belts, std::size_t point, const AnchorVector& anchors,
+                   const PerBelt<bool>& counting, std::vector<double>& residual_mm) {
+  if (!counting.tl || !counting.tr) return;
+  const BeltMachine machine = with_anchors(belts.machine, anchors);
+  const auto& lengths = belts.points[point].lengths_mm;
+  const auto place = model::place_of_upper(machine, lengths.tl, lengths.tr);
+  if (!place) return;
+  for (const Belt belt : {Belt::bl, Belt::br}) {
+    const auto predicted = model::reading_at(machine, belt, *place);
+    if (counting[belt] && predicted) residual_mm.push_back(lengths[belt] - predicted->length_mm);
+  }
+}
+
+BeltPrediction summed(const std::vector<double>& residual_mm) {
+  const ErrorSummary errors = summary_of(residual_mm);
+  return {residual_mm.size(), errors.rms_mm, errors.maximum_mm};
+}
+
+/// Each place predicted by anchors fitted without it. Rejected readings are excluded.
+BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
+  std::vector<double> residual_mm;
+  for (const auto k : each_index(belts.points)) {
+    // A taped place is not left out: the tape would still determine it.
+    if (!view.is_placed(k) || view.is_taped(k)) continue;
+    predict_point(belts, k, view.anchors_without(k), view.frame().counting[k], residual_mm);
+  }
+  return summed(residual_mm);
+}
+
+/// Points in the order of their visits, of the file where that is not known.
+Indices in_order(const MeasuredBelts& belts) {
+  auto order = numbers_below(belts.points.size());
+  stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return belts.points[a].order.value_or(as_int(a)) < belts.points[b].order.value_or(as_int(b));
+  });
+  return order;
+}
+
+}  // namespace
+
+BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
+                    const MatrixXd& covariance) {
+  BeltsFit fit;
+  fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
+  fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
+  fit.residual_sigma_mm = view.frame().residual_sigma_mm;
+  fit.checks = as_int(view.frame().checks);
+  fill_coordinates(belts, view, fit);
+  fill_places(belts, view, fit);
+  fill_scale(belts, view, covariance, fit);
+  fit.one_left_out = predict_one_by_one(belts, view);
+  return fit;
+}
+
+std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, const AnchorFit& frame,
+                                                const Refit& refit) {
+  if (belts.points.size() < 2 * kFewestBeltPoints) return std::nullopt;
+  const Indices order = in_order(belts);
+  std::vector<double> residual_mm;
+  for (const std::size_t half : {0UL, 1UL}) {
+    AnchorFit from = frame;
+    for (std::size_t i = half; i < order.size(); i += 2) from.counting[order[i]] = {};
+    const auto fitted = refit(from);
+    if (!fitted || fitted->frame.checks < 1) return std::nullopt;
+    for (std::size_t i = half; i < order.size(); i += 2) {
+      predict_point(fitted->belts, order[i], fitted->frame.state.anchors, frame.counting[order[i]],
+                    residual_mm);
+    }
+  }
+  return summed(residual_mm);
 }
 
 }  // namespace chaintrue::grid::belts

@@ -22,6 +22,7 @@
 /// Source: B. Triggs et al., Bundle Adjustment - A Modern Synthesis (2000), section 6, for (1).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -29,8 +30,8 @@
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/belt_lengths.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::belts {
@@ -60,7 +61,7 @@ class FitDiagnostics {
   /// cov(a)^-1.
   const MatrixXd& precision() const { return precision_; }
   bool has_scale() const { return covariance_.cols() > kAnchorUnknowns; }
-  bool counts(std::size_t point, model::Belt belt) const {
+  bool counts(std::size_t point, Belt belt) const {
     return is_placed(point) && frame_.counting[point][belt];
   }
 
@@ -74,9 +75,9 @@ class FitDiagnostics {
   Matrix2d place_covariance_mm2(std::size_t point) const;
 
   /// w cov(a) x': the response of a to a reading.
-  VectorXd influence(std::size_t point, model::Belt belt) const;
+  VectorXd influence(std::size_t point, Belt belt) const;
 
-  BeltResidual residual(std::size_t point, model::Belt belt) const;
+  BeltResidual residual(std::size_t point, Belt belt) const;
 
   /// A distance as predicted by the fit, and its sigma.
   struct Expected {
@@ -100,7 +101,7 @@ class FitDiagnostics {
     /// X' w A, and the gradient X' w r.
     MatrixXd precision() const {
       const MatrixXd weighed = line.weight.asDiagonal() * line.by_parameter;
-      return linear::product(linear::transposed(left), weighed);
+      return linear::inner(left, weighed);
     }
     VectorXd gradient() const {
       return left.transpose() * line.weight.cwiseProduct(line.residual_mm);
@@ -110,16 +111,37 @@ class FitDiagnostics {
   struct Slot {
     std::size_t block = 0;
     Index place = 0;
-    Index row(model::Belt belt) const { return 4 * place + static_cast<Index>(belt); }
+    Index row(Belt belt) const { return 4 * place + as_index(belt); }
   };
 
   AnchorFit frame_;
-  std::shared_ptr<const model::Mechanism> mechanism_;
+  std::shared_ptr<const Mechanism> mechanism_;
   std::vector<Block> blocks_;
   std::vector<std::optional<Slot>> slots_;
   FitResiduals equations_;
   MatrixXd precision_;
   MatrixXd covariance_;
 };
+
+// Assembles a BeltsFit from anchors, places and their covariances, with the error of predicting
+// the lower belts from the upper two at left-out places. Private to grid/belts and what reads its
+// fits.
+
+/// Everything except the predictions of each half of the places by the other. `belts` and `view`
+/// use the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
+/// logarithm too.
+BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
+                    const MatrixXd& covariance);
+
+/// A fit with what counts given, and the readings as its anchors explain them.
+struct Refitted {
+  AnchorFit frame;
+  MeasuredBelts belts;
+};
+using Refit = std::function<std::optional<Refitted>(const AnchorFit& from)>;
+/// Every second place, in the order of the visits, by the others, and those by these. Empty if a
+/// half has fewer than kFewestBeltPoints, or has no fit.
+std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, const AnchorFit& frame,
+                                                const Refit& refit);
 
 }  // namespace chaintrue::grid::belts

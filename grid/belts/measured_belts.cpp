@@ -5,13 +5,10 @@
 
 #include <set>
 
-#include "grid/containers.hpp"
-
 namespace chaintrue::grid {
 
-std::vector<model::Belt> pulled_after(model::Orientation orientation, model::BedPoint from,
-                                      model::BedPoint to, std::size_t visit) {
-  using model::Belt;
+std::vector<Belt> pulled_after(model::Orientation orientation, BedPoint from, BedPoint to,
+                               std::size_t visit) {
   constexpr std::size_t kFirstRound = 6;
   // The firmware's own threshold.
   constexpr double kMovedMm = 1.0;
@@ -30,14 +27,14 @@ MeasuredBelts without_distances(MeasuredBelts belts) {
   return belts;
 }
 
-bool is_pulled(const BeltPoint& point, model::Belt belt) {
+bool is_pulled(const BeltPoint& point, Belt belt) {
   if (!point.pulled) return !model::is_upper(belt);
   return contains(*point.pulled, belt);
 }
 
-model::PerBelt<bool> pulled_belts(const BeltPoint& point) {
-  model::PerBelt<bool> pulled;
-  for (const model::Belt belt : model::kBelts) pulled[belt] = is_pulled(point, belt);
+PerBelt<bool> pulled_belts(const BeltPoint& point) {
+  PerBelt<bool> pulled;
+  for (const Belt belt : kBelts) pulled[belt] = is_pulled(point, belt);
   return pulled;
 }
 
@@ -76,10 +73,10 @@ std::string words_of(const BeltPull& pull) {
 std::string words_of(const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end))
     return fmt::format("point {}", *index + 1);
-  if (const auto* belt = std::get_if<model::Belt>(&end)) {
+  if (const auto* belt = std::get_if<Belt>(&end)) {
     return fmt::format("the {} anchor", model::words(*belt));
   }
-  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  const BedPoint at = std::get<CutHole>(end).commanded;
   return fmt::format("the hole at ({:g}, {:g})", at.x_mm, at.y_mm);
 }
 

@@ -11,11 +11,13 @@
 /// \endcode
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::grid {
@@ -31,26 +33,26 @@ struct BeltPull {
 
 struct BeltPoint {
   /// As the controller prints them; BeltMachine::lengths defines what they count.
-  model::PerBelt<double> lengths_mm;
-  std::optional<model::BedPoint> commanded = std::nullopt;
+  PerBelt<double> lengths_mm;
+  std::optional<BedPoint> commanded = std::nullopt;
   /// Number of the visit; all points have it, distinct, or none.
   std::optional<int> order = std::nullopt;
   /// Belts that a motor pulled tight at the reading while the others held; absent: those of the
   /// frame's orientation, the lower two.
-  std::optional<std::vector<model::Belt>> pulled = std::nullopt;
+  std::optional<std::vector<Belt>> pulled = std::nullopt;
   /// All points have it, in one unit, or none: then all were pulled equally.
   std::optional<BeltPull> pull = std::nullopt;
   /// Single readings in the log that the controller discarded at this place because they did not
   /// agree.
-  model::PerBelt<std::vector<double>> thrown_away_mm{};
+  PerBelt<std::vector<double>> thrown_away_mm{};
 };
 
 /// A hole that the machine cut at a commanded place, with the anchors and scales in force.
 struct CutHole {
-  model::BedPoint commanded;
+  BedPoint commanded;
 };
 /// An end of a taped distance: a point of the file, an anchor, or a hole.
-using BeltEnd = std::variant<std::size_t, model::Belt, CutHole>;
+using BeltEnd = std::variant<std::size_t, Belt, CutHole>;
 
 struct BeltDistance {
   BeltEnd from;
@@ -67,7 +69,7 @@ struct FirmwareFit {
 
 struct MeasuredBelts {
   std::string name;
-  model::BeltMachine machine;
+  BeltMachine machine;
   std::vector<BeltPoint> points;
   std::vector<BeltDistance> distances;
   std::optional<FirmwareFit> firmware_fit = std::nullopt;
@@ -82,15 +84,15 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
 
 /// Belts that the firmware pulls at a place: on an upright frame the lower two; on a flat one those
 /// behind the last move, and at the first six places the lower two. `visit` counts from 0.
-std::vector<model::Belt> pulled_after(model::Orientation orientation, model::BedPoint from,
-                                      model::BedPoint to, std::size_t visit);
+std::vector<Belt> pulled_after(model::Orientation orientation, BedPoint from, BedPoint to,
+                               std::size_t visit);
 /// The lengths alone.
 [[nodiscard]] MeasuredBelts without_distances(MeasuredBelts belts);
 
 /// Whether a motor pulled this belt at the reading.
-bool is_pulled(const BeltPoint& point, model::Belt belt);
+bool is_pulled(const BeltPoint& point, Belt belt);
 /// For all four belts.
-model::PerBelt<bool> pulled_belts(const BeltPoint& point);
+PerBelt<bool> pulled_belts(const BeltPoint& point);
 /// The pull that sizes of effects refer to; empty if no point has one.
 std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);
 /// Over `reference`; 1 where either is not known.
@@ -101,5 +103,20 @@ std::vector<double> different_pulls(const MeasuredBelts& belts);
 std::string words_of(const BeltPull& pull);
 /// "point 3", "the top left anchor", "the hole at (-900, 300)".
 std::string words_of(const BeltEnd& end);
+
+// Numbers of points in their file when others were left out by hand: messages and files keep the
+// file's numbers.
+
+/// Each point's index in the file, from 0; empty: none was left out.
+using PointIndices = Indices;
+
+inline std::size_t index_in_file(const PointIndices& indices, std::size_t point) {
+  return point < indices.size() ? indices[point] : point;
+}
+/// "point 3" as the file counts, from 1; an anchor, or a hole.
+inline std::string words_of(const BeltEnd& end, const PointIndices& indices) {
+  const auto* point = std::get_if<std::size_t>(&end);
+  return words_of(point != nullptr ? BeltEnd(index_in_file(indices, *point)) : end);
+}
 
 }  // namespace chaintrue::grid

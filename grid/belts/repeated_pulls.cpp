@@ -10,9 +10,6 @@
 
 namespace chaintrue::grid {
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 /// The firmware repeats a reading until it agrees to this; starting places are 100 mm apart.

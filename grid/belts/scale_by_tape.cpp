@@ -18,9 +18,9 @@ constexpr int kDirections = 8;
 constexpr double kWholeMm = 10.0;
 
 /// The outermost points of the file in each direction, each once.
-std::vector<std::size_t> outermost(const BeltsFit& fit) {
-  std::vector<std::size_t> points;
-  for (int i = 0; i < kDirections; ++i) {
+Indices outermost(const BeltsFit& fit) {
+  Indices points;
+  for (const int i : each_below(kDirections)) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
     const auto along = [&](const FittedPlace& place) {
       return std::cos(angle) * place.at.x_mm + std::sin(angle) * place.at.y_mm;
@@ -41,7 +41,7 @@ std::vector<BeltEnd> ends_of(const MeasuredBelts& belts, const BeltsFit& fit) {
       ends.emplace_back(index);
       continue;
     }
-    const model::FramePoint centre = model::centre_of(belts.machine);
+    const FramePoint centre = model::centre_of(belts.machine);
     const auto whole = [](double mm) { return kWholeMm * std::round(mm / kWholeMm) + 0.0; };
     ends.emplace_back(CutHole{{whole(fit.places[index].at.x_mm - centre.x_mm),
                                whole(fit.places[index].at.y_mm - centre.y_mm)}});
@@ -54,8 +54,8 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
   frame.state.anchors = belts::anchors_of(fit.machine);
   for (const FittedPlace& place : fit.places) {
     frame.state.places.push_back(place.at);
-    model::PerBelt<bool>& counts = frame.counting.emplace_back();
-    for (const model::Belt belt : model::kBelts) counts[belt] = place.belts[belt].counts;
+    PerBelt<bool>& counts = frame.counting.emplace_back();
+    for (const Belt belt : kBelts) counts[belt] = place.belts[belt].counts;
   }
   if (fit.scale) frame.state.log_scale = std::log(fit.scale->factor);
   // Lengths without noise are given a hundredth of a usual sigma.
@@ -85,11 +85,11 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
   if (fit.places.empty()) return std::nullopt;
   std::vector<std::pair<BeltEnd, BeltEnd>> pairs;
   const auto add_pairs = [&pairs](const std::vector<BeltEnd>& ends) {
-    for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (const auto i : each_index(ends)) {
       for (std::size_t j = i + 1; j < ends.size(); ++j) pairs.emplace_back(ends[i], ends[j]);
     }
   };
-  add_pairs({model::kBelts.begin(), model::kBelts.end()});
+  add_pairs({kBelts.begin(), kBelts.end()});
   add_pairs(ends_of(belts, fit));
   const belts::FitDiagnostics view(belts, frame_of(fit));
   std::optional<DistanceForScale> best;

@@ -27,7 +27,7 @@ MeasuredBelts evenly_of(const MeasuredBelts& belts, std::size_t first, std::size
   part.points.clear();
   const std::size_t count = end - first;
   const std::size_t taken = std::min(count, kMostOfAPart);
-  for (std::size_t i = 0; i < taken; ++i) {
+  for (const std::size_t i : each_below(taken)) {
     const std::size_t at = taken > 1 ? i * (count - 1) / (taken - 1) : 0;
     part.points.push_back(belts.points[first + at]);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/analysis.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
-#include "grid/eigen.hpp"
+#include "grid/failed.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -42,12 +42,12 @@ void share_out_links(RegressorSystem& system) {
            log_strength_density(lengths(as_index(k)));
   };
   std::map<CauseId, double> log_all;
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     if (!system.regressors[k].fixed) continue;
     double& sum = log_all.try_emplace(system.regressors[k].cause, kMinusInfinity).first->second;
     sum = log_sum(sum, log_weight(k));
   }
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     Regressor& d = system.regressors[k];
     if (!d.fixed) continue;
     d.log_prior =
@@ -83,9 +83,9 @@ DiagnosisFailure impossible(const ObservationSet& session, const model::MachineP
 double move_mm(const ObservationSet& session, const VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
-  for (Index k = 0; k < session.setting_columns(); ++k) {
-    const bool turn = session.is_of_chains() &&
-                      session.settings[as_size(k)] == model::Setting::sheet_rotation_rad;
+  for (const Index k : each_below(session.setting_columns())) {
+    const bool turn =
+        session.is_of_chains() && session.settings[as_size(k)] == Setting::sheet_rotation_rad;
     most = std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(k)));
   }
   return most;
@@ -134,7 +134,7 @@ void speak_of_leaders(const RegressorSystem& system, const ModelComparison& comp
 void drop_hidden(std::string_view reason, Analysis& a) {
   const VectorXd lengths = reduced_lengths(a.system);
   std::map<CauseId, double> reach;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+  for (const auto k : each_index(a.system.regressors)) {
     const Regressor& d = a.system.regressors[k];
     const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
     double& most = reach[d.cause];
@@ -146,7 +146,7 @@ void drop_hidden(std::string_view reason, Analysis& a) {
   }
   std::erase_if(a.candidates.testable, std::not_fn(shows));
   ColumnSet kept;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+  for (const auto k : each_index(a.system.regressors)) {
     if (shows(a.system.regressors[k].cause)) kept.push_back(as_index(k));
   }
   a.system.g = a.system.g.subset(kept);
@@ -248,10 +248,9 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   Analysis a;
   a.session = std::move(session);
   a.options = options;
-  if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
+  if (auto done = calibrate(a); !done) return failed(done);
   a.candidates = candidates(a.session);
-  if (auto done = compare_in_rounds(calibrated_rules(), a); !done)
-    return tl::unexpected(done.error());
+  if (auto done = compare_in_rounds(calibrated_rules(), a); !done) return failed(done);
   judge(calibrated_rules(), a);
   return a;
 }
@@ -262,6 +261,100 @@ Analysis analyse_without(Analysis a, const VectorXd& rows, const AnalysisRules& 
   a.comparison = compare_models(a.system, nothing_rejected(a.system), rules.compared(a, true));
   judge(rules, a);
   return a;
+}
+
+const Regressor& regressor(const Analysis& a, int k) { return a.system.regressor(k); }
+
+const MarginalisedSystem& marginalised_system(const Analysis& a) {
+  return a.comparison.marginalised_systems[a.decision.marginalised];
+}
+
+int best_regressor(const Analysis& a, const CauseId& cause) {
+  for (const int k : a.decision.regressors) {
+    if (regressor(a, k).cause == cause) return k;
+  }
+  for (const CandidateModel& model : a.comparison.models) {
+    if (model.regressors.size() != 1) continue;
+    if (regressor(a, model.regressors.front()).cause == cause) return model.regressors.front();
+  }
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  int best = -1;
+  double most = -1.0;
+  for (const int k : a.system.regressors_of(cause)) {
+    const VectorXd g = reduced(marginalised, a.system.g.col(k));
+    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
+    if (score > most) {
+      most = score;
+      best = k;
+    }
+  }
+  return best;
+}
+
+void reject_slips(const Analysis& a, Flags& outliers) {
+  for (const int k : a.decision.regressors) {
+    const Regressor& own = regressor(a, k);
+    if (!own.slip) continue;
+    for (const auto u : each_index(a.system.units)) {
+      const SystemUnit& unit = a.system.units[u];
+      if (!unit.reads_chains) continue;
+      const SystemPlace& place = a.system.places[unit.places.front().place];
+      if (place.ordered && place.order == static_cast<int>(own.values.back())) outliers[u] = true;
+    }
+  }
+}
+
+bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
+  const std::size_t home = a.decision.class_of(x);
+  return x == y || (home < a.decision.classes.size() && home == a.decision.class_of(y));
+}
+
+Nearest nearest_other(const Analysis& a, int column) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const VectorXd own = reduced(marginalised, a.system.g.col(column));
+  const VectorXd products = with_regressors(a.system, marginalised, own);
+  const VectorXd squares = squared_lengths(a.system, marginalised);
+  const auto excluded = [&](const CauseId& other) {
+    if (same_class(a, other, regressor(a, column).cause)) return true;
+    if (a.decision.verdict != Verdict::several_causes) return false;
+    return any_of(a.decision.regressors,
+                  [&](int k) { return same_class(a, other, regressor(a, k).cause); });
+  };
+  Nearest nearest;
+  for (const auto k : each_index(a.system.regressors)) {
+    const auto at = as_index(k);
+    if (excluded(a.system.regressors[k].cause)) continue;
+    const double collinearity = collinearity_of(products(at), own.norm() * std::sqrt(squares(at)));
+    // Among columns that differ only by rounding the first wins, on any processor.
+    constexpr double kRounding = 1e-9;
+    if (collinearity > nearest.collinearity + kRounding) nearest = {as_int(k), collinearity};
+  }
+  return nearest;
+}
+
+Shown shown(const Analysis& a) {
+  Shown result{a.decision.regressors, {}};
+  if (result.best.empty() && !a.decision.marginal.empty()) {
+    result.best = {
+        best_regressor(a, a.decision.classes[a.decision.marginal.front().index].front())};
+  }
+  if (result.best.empty()) return result;
+  int first = result.best.front();
+  if (!a.decision.listed.empty()) {
+    first = best_regressor(a, a.decision.classes[a.decision.listed.front()].front());
+  }
+  const Nearest other = nearest_other(a, first);
+  if (other.column >= 0) result.rival = {other.column};
+  return result;
+}
+
+Estimate estimate_with(const Analysis& a, RegressorSet regressors) {
+  sort(regressors);
+  return estimate(a.system, marginalised_system(a), regressors, a.noise);
+}
+
+Estimate estimate_of(const Analysis& a, const RegressorSet& regressors) {
+  return estimate(a.system, marginalised_system(a), regressors, -1);
 }
 
 }  // namespace chaintrue::grid::diagnosis

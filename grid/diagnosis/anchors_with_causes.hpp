@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The anchors of a router on four belts, with sigmas that allow for the stretch of pulled
-/// belts and every other cause in the belts' table at its usual size (averaged_anchors.hpp). A
+/// belts and every other cause in the belts' table at its usual size (belts_analysis.hpp). A
 /// diagnosis of the same belts reports the same anchors.
 ///
 /// With P and P_t the precision of anchors and scale by corrected readings, without and with the

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -17,7 +17,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   // An extension must improve left-out points.
   const bool worse = diagnosis.improvement && diagnosis.improvement->extended.rms_mm >=
                                                   diagnosis.improvement->calibrated.rms_mm;
-  std::vector<model::AppliedEffect> into_machine;
+  std::vector<AppliedEffect> into_machine;
   RegressorSet taken;
   for (const Cause& cause : used) {
     const int column = best_regressor(a, cause.cause);

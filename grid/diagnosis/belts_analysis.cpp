@@ -3,11 +3,10 @@
 
 #include <cmath>
 
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -153,9 +152,9 @@ void BeltRules::restrain(bool detected, Analysis& a) const {
 belts::Counting decided_counting(const Analysis& a) {
   const Flags& rejected = marginalised_system(a).outliers;
   belts::Counting counting(a.system.places.size());
-  for (std::size_t u = 0; u < counting.size(); ++u) {
-    for (const model::Belt belt : model::kBelts) {
-      counting[a.system.places[u].place][belt] = !rejected[4 * u + static_cast<std::size_t>(belt)];
+  for (const auto u : each_index(counting)) {
+    for (const Belt belt : kBelts) {
+      counting[a.system.places[u].place][belt] = !rejected[4 * u + as_size(belt)];
     }
   }
   return counting;
@@ -163,7 +162,7 @@ belts::Counting decided_counting(const Analysis& a) {
 
 std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& a) {
   std::vector<SizedCause> causes;
-  for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
+  for (const auto k : each_index(a.estimate.regressors)) {
     const Regressor& d = a.system.regressor(a.estimate.regressors[k]);
     causes.push_back(d);
     causes.back().values.front() = size_at(d, a.estimate.coefficient(as_index(k)));
@@ -186,7 +185,7 @@ tl::expected<BeltsAnalysis, BeltsFitFailure> analyse(const MeasuredBelts& belts,
   BeltsAnalysis a;
   tell(options.progress, kFitting);
   auto before = fit_belts(belts);
-  if (!before) return tl::unexpected(before.error());
+  if (!before) return failed(before);
   a.before = *std::move(before);
   tell(options.progress, kComparingBelts);
   a.measured = belts;

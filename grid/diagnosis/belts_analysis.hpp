@@ -5,11 +5,54 @@
 #pragma once
 
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "grid/belts/belts_fit.hpp"
-#include "grid/diagnosis/averaged_anchors.hpp"
+#include "grid/belts/measured_belts.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/belts_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+// Anchors of four belts averaged over the models of a comparison, weighted by probability:
+// each cause of yielding under the pull, with every other cause and sets of causes, with and
+// without a smooth pattern. Private to grid/diagnosis.
+//
+// With anchors a_m, covariance C_m and weight w_m of model m, together 1:
+//
+//   a = sum_r w_r a_r / sum_r w_r,   C = sum_m w_m (C_m + (a_m - a)(a_m - a)')              (1)
+//
+// where r are the models of exactly the causes that are reported: anchors are used with these, and a mean over all would
+// fit the readings with none of them. C is the expected square of the anchors' error.
+//
+// w_m is the evidence of the comparison with another prior. A diagnosis treats each cause as rare;
+// a sigma has to hold if one acts at its usual size, so each gets the weight that gives 95 %
+// intervals their coverage then (kWeights, found by tests/lab/sealed/command/anchor_coverage).
+// Causes about which the state is linear keep their fitted sizes, however unusual; all others have
+// their usual spread.
+//
+// Source: J. Hoeting, D. Madigan, A. Raftery and C. Volinsky, Bayesian Model Averaging, Statist.
+// Sci. 14 (1999) 382, equations 1 and 2.
+
+/// A cause with its values, the sigma of the first, and its probability.
+struct AveragedCause {
+  SizedCause cause;
+  double sigma = 0.0;
+  double probability = 0.0;
+};
+
+struct AveragedAnchors {
+  belts::AnchorVector anchors = belts::AnchorVector::Zero();
+  Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns> covariance_mm2 =
+      Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns>::Zero();
+  /// The likeliest cause of yielding under the pull, and all others that are more likely than not;
+  /// sizes averaged over the models that contain them.
+  std::vector<AveragedCause> causes;
+};
+
+/// \pre the system is linear about these anchors. \throws std::invalid_argument for a comparison without a
+/// model.
+AveragedAnchors averaged_anchors(const belts::AnchorVector& about, const Analysis& analysis);
 
 struct BeltsAnalysis : Analysis {
   MeasuredBelts measured;
@@ -49,5 +92,51 @@ belts::Counting decided_counting(const Analysis& analysis);
 
 /// The analysis with patterns of single belts added, for weighing laws.
 Analysis analysis_of_laws(const BeltsAnalysis& analysis);
+
+// Turns an analysis of four belts into the answer. Private to grid/diagnosis.
+
+/// fit_with_causes() with an analysis of the same belts that is not judged yet.
+[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(
+    const BeltsAnalysis& analysis);
+
+/// Prediction of the lower belts of each half of the places by a fit to the other, including the
+/// causes' sizes; empty with too few places.
+std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
+                                                   const belts::AnchorFit& frame,
+                                                   const std::vector<SizedCause>& causes);
+
+/// Rejected readings (a place with more than one is listed as a whole), the unexplained pattern if the
+/// decision has one, else only its probability, and `belts` without a second pass.
+void take_belts_findings(const BeltsAnalysis& analysis, Diagnosis& diagnosis);
+
+/// Measurements are proposed if they succeed with a probability of a quarter: eight that reach a
+/// sixth would be wasted effort.
+inline constexpr double kWorthMeasuring = 0.25;
+/// A gain in probability that is worth a second session.
+inline constexpr double kWorthASession = 0.05;
+
+/// What to measure next to discriminate between the leading causes: further places and repeated
+/// places, chosen as next_measurements.hpp chooses points. Each gives two checks, predicted by each
+/// alternative (expected_discrimination.hpp) with its anchors, causes and pattern.
+struct BeltsNext {
+  /// `mark` is a command, `pulled` where the frame's orientation leaves a choice.
+  std::vector<NextMeasurement> measurements;
+  /// Probability that only the right explanation remains once every place is measured again, the
+  /// last one first. Empty if nothing is open, or for more places than this is computed for.
+  std::optional<double> all_once_more;
+  /// The same with belts pulled harder, if all were measured with one pull and this reaches more
+  /// than measurements at the same setting.
+  std::optional<SecondPass> second_pass;
+  bool is_open = false;  ///< two explanations or more remain
+};
+/// `indices`: positions of the points in their file.
+BeltsNext next_measurements(const BeltsAnalysis& analysis, const PointIndices& indices);
+
+/// What to measure next; last, if no tape determines the scale, the distance that would.
+std::vector<NextMeasurement> measurements_of(const BeltsAnalysis& analysis, const BeltsNext& next,
+                                             const PointIndices& indices);
+
+/// verdict, sentence, what_to_do, not_proved and notes from everything else.
+void put_into_words(const BeltsAnalysis& analysis, const BeltsNext& next, Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -3,25 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/belts/fit_report.hpp"
-#include "grid/diagnosis/belts_report.hpp"
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/eigen.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-using model::Belt;
-using model::FramePoint;
-using model::kBelts;
 
 namespace {
 
 /// rms of the distances from where the machine believes the tool, by the upper two belts, to where it is,
 /// after the best rigid motion of the frame, which only places the sheet. Without places where these
 /// belts do not meet.
-double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& real,
+double shape_error_mm(const BeltMachine& by, const BeltMachine& real,
                       const std::vector<model::effects::ActingEffect>& effects,
                       const std::vector<FramePoint>& places) {
   // During cutting the upper two hold; effects that set in at a visit are present.
@@ -38,7 +34,7 @@ double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& re
   const auto n = std::ssize(rows);
   MatrixXd design = MatrixXd::Zero(2 * n, 3);
   VectorXd shift(2 * n);
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : each_below(n)) {
     const Eigen::Vector4d& row = rows[as_size(i)];
     design.row(2 * i) << 1.0, 0.0, -row[1];
     design.row(2 * i + 1) << 0.0, 1.0, row[0];
@@ -49,11 +45,11 @@ double shape_error_mm(const model::BeltMachine& by, const model::BeltMachine& re
 }
 
 /// Root mean square over shifts along each axis of the anchors' uncertainty, in both directions.
-double uncertain_mm(const model::BeltMachine& machine, const MatrixXd& covariance,
+double uncertain_mm(const BeltMachine& machine, const MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
   const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
-  for (Index i = 0; i < covariance.cols(); ++i) {
+  for (const Index i : each_below(covariance.cols())) {
     const belts::AnchorVector moved =
         belts::anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
@@ -64,12 +60,12 @@ double uncertain_mm(const model::BeltMachine& machine, const MatrixXd& covarianc
 }
 
 ToolError tool_error(const BeltsAnalysis& a, const FitGivenCauses& given,
-                     const model::BeltMachine& machine) {
+                     const BeltMachine& machine) {
   const auto effects = resolved(given.causes);
   const std::vector<FramePoint>& places = given.frame.state.places;
   ToolError error;
   error.after_mm = uncertain_mm(machine, a.averaged.covariance_mm2, places);
-  const auto of = [&](const model::BeltMachine& by) {
+  const auto of = [&](const BeltMachine& by) {
     return std::hypot(shape_error_mm(by, machine, effects, places), error.after_mm);
   };
   if (a.belts.machine.anchors_known) error.stated_mm = of(a.belts.machine);
@@ -112,7 +108,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
   const belts::AnchorFit& frame = given.frame;
   BeltsFindings found;
   found.machine = belts::with_anchors(a.belts.machine, a.averaged.anchors);
-  for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
+  for (const auto i : each_index(found.coordinates)) {
     const AnchorCoordinate& before = a.before.coordinates[i];
     const auto at = as_index(i);
     found.coordinates[i] = {before.name, before.stated_mm, before.fitted_mm, a.averaged.anchors[at],
@@ -122,7 +118,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
   found.rms_before_mm = rms_of_all_mm(a.belts, {{a.alone, a.belts}, {}});
   found.rms_mm = rms_of_all_mm(a.belts, given);
   double good_square = 0.0;
-  for (std::size_t k = 0; k < a.belts.points.size(); ++k) {
+  for (const auto k : each_index(a.belts.points)) {
     BeltPlacePicture place{frame.state.places[k], a.belts.points[k].order, {}, {}, {}};
     for (const Belt belt : kBelts) {
       const BeltResidual left = view.residual(k, belt);
@@ -134,7 +130,7 @@ BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
     found.places.push_back(place);
   }
   const auto values = std::ssize(a.estimate.free);
-  found.checks = static_cast<int>(std::max<Index>(frame.checks - values, 1));
+  found.checks = as_int(std::max<Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
   found.prediction_before = a.before.half_left_out;
   found.prediction = prediction_by_halves(a.belts, frame, given.causes);
@@ -196,7 +192,7 @@ std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::
 /// Rejected readings; a place with more than one is listed as a whole.
 std::vector<Outlier> bad_belts(const FitGivenCauses& given, const belts::FitDiagnostics& view) {
   std::vector<Outlier> result;
-  for (std::size_t k = 0; k < given.belts.points.size(); ++k) {
+  for (const auto k : each_index(given.belts.points)) {
     std::vector<Belt> bad;
     Outlier outlier;
     outlier.of = Observations::belts;

@@ -3,7 +3,7 @@
 /// What a diagnosis of four belts finds besides causes and their probabilities: anchors, the error
 /// of one belt's reading, the prediction of the lower belts by the upper two, and the tool's
 /// position. "Before" is with the anchors fitted alone, as the machine does; "after" is with the
-/// named causes. Anchors are averaged over all possible causes, as in a fit (averaged_anchors.hpp).
+/// named causes. Anchors are averaged over all possible causes, as in a fit (belts_analysis.hpp).
 /// In the belts' mm: their scale is unknown without a tape.
 #pragma once
 
@@ -28,11 +28,11 @@ struct DiagnosedCoordinate {
 
 /// A place in the pictures: read less fitted, of each belt.
 struct BeltPlacePicture {
-  model::FramePoint at;  ///< with the causes and the anchors
+  FramePoint at;  ///< with the causes and the anchors
   std::optional<int> order;
-  model::PerBelt<double> before_mm;
-  model::PerBelt<double> after_mm;
-  model::PerBelt<bool> bad;  ///< rejected
+  PerBelt<double> before_mm;
+  PerBelt<double> after_mm;
+  PerBelt<bool> bad;  ///< rejected
 };
 
 /// The distance of the tool from its believed position by the upper two belts, over the measured
@@ -55,7 +55,7 @@ struct SecondPass {
 std::string in_words(const SecondPass& pass);
 
 struct BeltsFindings {
-  model::BeltMachine machine;  ///< with the anchors fitted with the causes
+  BeltMachine machine;  ///< with the anchors fitted with the causes
   std::array<DiagnosedCoordinate, 5> coordinates;
   /// sqrt(sum r^2 / checks): the error of one belt's reading.
   double spread_before_mm = 0.0;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_system.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace chaintrue::grid::diagnosis {
-
-using model::Belt;
-using model::kBelts;
 
 std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>& causes) {
   std::vector<model::effects::ActingEffect> effects;
@@ -30,9 +27,9 @@ struct FreeValue {
 
 std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
   std::vector<FreeValue> free;
-  for (std::size_t j = 0; j < causes.size(); ++j) {
+  for (const auto j : each_index(causes)) {
     const auto& parameters = causes[j].cause.effect->parameters;
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
+    for (const auto i : each_index(parameters)) {
       if (!parameters[i].integer) free.push_back({j, i, &parameters[i]});
     }
   }
@@ -45,7 +42,7 @@ MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<SizedCause>
   // Share of a value's usual spread, for difference quotients.
   constexpr double kStep = 0.05;
   MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
-  for (std::size_t f = 0; f < free.size(); ++f) {
+  for (const auto f : each_index(free)) {
     const double step = kStep * free[f].parameter->prior_sigma;
     const SizedCause& here = causes[free[f].cause];
     SizedCause there = here;
@@ -62,7 +59,7 @@ bool moved(const VectorXd& change, const std::vector<FreeValue>& free,
   // Share of a value's usual spread: a hundredth of what the best data leave uncertain.
   constexpr double kConverged = 1e-4;
   bool converged = true;
-  for (std::size_t f = 0; f < free.size(); ++f) {
+  for (const auto f : each_index(free)) {
     const EffectParameter& parameter = *free[f].parameter;
     double& value = causes[free[f].cause].values[free[f].value];
     double next = value + change[belts::kAnchorUnknowns + as_index(f)];
@@ -84,13 +81,12 @@ VectorXd least_squares(const FitGivenCauses& given, const MatrixXd& columns) {
   const RegressorSystem system = linearise(set, estimation::stated_state(set)).value();
   MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
   design.leftCols<belts::kAnchorUnknowns>() = system.by_setting;
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
         unit.by_reading * columns.middleRows<4>(belts::row_of(set.units[u].index, Belt::tl));
   }
-  return linear::least_squares(linear::gram(design),
-                               linear::product(linear::transposed(design), system.e));
+  return linear::least_squares(linear::gram(design), linear::inner(design, system.e));
 }
 
 }  // namespace
@@ -100,14 +96,14 @@ VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& cau
   VectorXd added = VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
   const auto effects = resolved(causes);
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
+  const BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
   const std::optional<BeltPull> reference = reference_pull(belts);
   for (const Belt belt : kBelts) {
     const bool acts =
         any_of(effects, [belt](const auto& own) { return model::belts::acts_on(own.side, belt); });
     if (!acts) continue;
-    for (std::size_t k = 0; k < belts.points.size(); ++k) {
-      const model::FramePoint at = state.places[k];
+    for (const auto k : each_index(belts.points)) {
+      const FramePoint at = state.places[k];
       const BeltPoint& point = belts.points[k];
       const model::belts::BeltVisit visit{belt, pulled_belts(point), point.order.value_or(0),
                                           pull_over(reference, point)};
@@ -123,7 +119,7 @@ MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<Size
                               const belts::FrameState& state) {
   MeasuredBelts without_causes = belts;
   const VectorXd added = added_by(belts, causes, state);
-  for (std::size_t k = 0; k < without_causes.points.size(); ++k) {
+  for (const auto k : each_index(without_causes.points)) {
     for (const Belt belt : kBelts)
       without_causes.points[k].lengths_mm[belt] -= added[belts::row_of(k, belt)];
   }
@@ -133,10 +129,10 @@ MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<Size
 ObservationSet observations_of(const MeasuredBelts& belts, const belts::FrameState& state,
                                double sigma_mm, const belts::Counting& counting) {
   const auto mechanism = belts::mechanism_at(belts, state);
-  std::vector<model::FramePoint> about = state.places;
-  for (model::FramePoint& at : about) {
+  std::vector<FramePoint> about = state.places;
+  for (FramePoint& at : about) {
     if (mechanism->predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
-    const model::ToolPosition middle = mechanism->extent().centre();
+    const ToolPosition middle = mechanism->extent().centre();
     at = {middle.x_mm, middle.y_mm};
   }
   const belts::Counting all(belts.points.size(), belts::kAllBelts);
@@ -159,7 +155,7 @@ std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
   };
   take_out();
   const std::vector<FreeValue> free = free_values(given.causes);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (const int round : each_below(kMostRounds)) {
     auto frame = belts::fit_anchors_from(given.belts, given.frame.state, given.frame.counting);
     if (!frame) return std::nullopt;
     given.frame = *std::move(frame);

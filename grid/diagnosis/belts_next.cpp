@@ -2,18 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 
 #include <fmt/format.h>
 
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/eigen.hpp"
 #include "grid/raster.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-using model::Belt;
 
 namespace {
 
@@ -58,7 +56,7 @@ class NextPlaces {
   }
 
   /// True if the machine reaches it. The default pull is the one that sizes refer to.
-  bool add(model::FramePoint at, const std::optional<std::vector<Belt>>& pulled,
+  bool add(FramePoint at, const std::optional<std::vector<Belt>>& pulled,
            const std::optional<BeltPull>& pull = std::nullopt) {
     const auto lengths = model::lengths_at(belts.machine, at);
     if (!lengths) return false;
@@ -74,7 +72,7 @@ class NextPlaces {
   }
 
   /// The place added last; its rows are filled in by the prediction.
-  void propose(MeasurementKind kind, std::string what, model::BedPoint command) {
+  void propose(MeasurementKind kind, std::string what, BedPoint command) {
     Candidate candidate{
         {kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
     candidate.measurement.pulled = belts.points.back().pulled.value_or(std::vector<Belt>{});
@@ -88,7 +86,7 @@ class NextPlaces {
     for (std::size_t u = 0; u < system.units.size() && !candidates.empty(); ++u) {
       const SystemUnit& unit = system.units[u];
       Rows& rows = candidates[system.places[u].place].rows;
-      for (Index row = 0; row < unit.rows; ++row) rows.push_back(unit.first_row + row);
+      for (const Index row : each_below(unit.rows)) rows.push_back(unit.first_row + row);
     }
     return alternatives_about(a_, system, [&](const SizedCause& own) {
       return std::optional(column_of(belts, state, system, own));
@@ -107,8 +105,8 @@ class NextPlaces {
 
 /// On a raster over the frame; coarser if each place can be reached in four ways.
 void add_places(NextPlaces& next) {
-  const model::BeltMachine& machine = next.belts.machine;
-  const model::FramePoint centre = model::centre_of(machine);
+  const BeltMachine& machine = next.belts.machine;
+  const FramePoint centre = model::centre_of(machine);
   const auto& anchors = machine.anchors;
   const double left = 0.5 * (anchors.tl.x_mm + anchors.bl.x_mm);
   const double right = 0.5 * (anchors.tr.x_mm + anchors.br.x_mm);
@@ -116,9 +114,9 @@ void add_places(NextPlaces& next) {
   const double aside = kMargin * (right - left);
   const interp::Rectangle area{left + aside, right - aside, kMargin * top, top - kMargin * top};
   const bool flat = machine.orientation == model::Orientation::flat;
-  for (const model::MarkPoint& at : raster(area, flat ? 5 : 9, flat ? 4 : 7, RasterOf::nodes)) {
+  for (const MarkPoint& at : raster(area, flat ? 5 : 9, flat ? 4 : 7, RasterOf::nodes)) {
     const auto whole = [](double mm) { return kRasterMm * std::round(mm / kRasterMm) + 0.0; };
-    const model::BedPoint command{whole(at.x_mm - centre.x_mm), whole(at.y_mm - centre.y_mm)};
+    const BedPoint command{whole(at.x_mm - centre.x_mm), whole(at.y_mm - centre.y_mm)};
     for (const Approach& way : approaches(machine.orientation)) {
       if (next.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, way.pulled))
         next.propose(MeasurementKind::point, fmt::format("{}{}", kFurtherPlace, way.words),
@@ -129,17 +127,17 @@ void add_places(NextPlaces& next) {
 
 void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlaces& next) {
   if (!next.next_visit) return;
-  const model::FramePoint centre = model::centre_of(next.belts.machine);
+  const FramePoint centre = model::centre_of(next.belts.machine);
   const std::size_t count = a.belts.points.size();
-  for (std::size_t i = 0; i < kRevisits; ++i) {
+  for (const std::size_t i : each_below(kRevisits)) {
     const std::size_t k = i * (count - 1) / (kRevisits - 1);
-    const model::FramePoint at = a.frame.state.places[k];
+    const FramePoint at = a.frame.state.places[k];
     const BeltPoint& point = a.belts.points[k];
     if (!next.add(at, point.pulled, point.pull)) continue;
-    next.propose(
-        MeasurementKind::revisit, fmt::format("point {} again", index_in_file(indices, k) + 1),
-        point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
-                                                 std::round(at.y_mm - centre.y_mm) + 0.0}));
+    next.propose(MeasurementKind::revisit,
+                 fmt::format("point {} again", index_in_file(indices, k) + 1),
+                 point.commanded.value_or(BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
+                                                   std::round(at.y_mm - centre.y_mm) + 0.0}));
   }
 }
 

@@ -13,9 +13,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 /// Degrees of freedom of the prior noise of a belt's reading, which is hardly known.
@@ -64,7 +61,8 @@ std::vector<int> visits_to_set_in(const MeasuredBelts& belts) {
 std::vector<int> thinned(const std::vector<int>& visits) {
   if (visits.size() <= kVisits) return visits;
   std::vector<int> few;
-  for (std::size_t i = 0; i < kVisits; ++i) few.push_back(visits[i * visits.size() / kVisits]);
+  for (const std::size_t i : each_below(kVisits))
+    few.push_back(visits[i * visits.size() / kVisits]);
   return few;
 }
 
@@ -118,7 +116,7 @@ std::vector<Regressor> tried_of(const CauseId& cause, const SizedCause* found,
         own.values[1] = found->values[1];
         add(true, 1.0 / (kWays + 1));
       }
-      for (int way = 0; way < kWays; ++way) {
+      for (const int way : each_below(kWays)) {
         own.values[1] =
             std::remainder(2.0 * std::numbers::pi * way / kWays, 2.0 * std::numbers::pi);
         add(false, 1.0 / kWays);
@@ -138,7 +136,7 @@ ColumnOf columns_of(const MeasuredBelts& belts, const belts::FrameState& state,
     VectorXd& whole = from_the_start[cause.values];
     if (whole.size() == 0) whole = column_of(belts, state, system, cause);
     VectorXd column = whole;
-    for (std::size_t u = 0; u < system.units.size(); ++u) {
+    for (const auto u : each_index(system.units)) {
       const SystemUnit& unit = system.units[u];
       if (system.places[u].order < visit) column.segment(unit.first_row, unit.rows).setZero();
     }
@@ -164,7 +162,7 @@ Candidates candidates(const MeasuredBelts& belts) {
       return "lengths that are all too long in proportion fit a larger frame without "
              "contradiction: tape one long distance, between two anchors or two holes that the "
              "machine cut, and enter it under distances";
-    if (effect->needs == model::effects::DataNeed::order && !ordered)
+    if (effect->needs == DataNeed::order && !ordered)
       return "the file does not have the order of the places: add order";
     if (effect->by_tension && !tells_pull)
       return "no belt is pulled while others hold: name the pulled belts under pulled";
@@ -191,8 +189,8 @@ namespace {
 SystemPlace place_of(const MeasuredBelts& belts, const belts::FrameState& state,
                      std::size_t index) {
   const BeltPoint& point = belts.points[index];
-  const model::FramePoint where = state.places[index];
-  const model::BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
+  const FramePoint where = state.places[index];
+  const BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
   SystemPlace place;
   place.place = index;
   place.mark = {where.x_mm, where.y_mm};
@@ -218,7 +216,7 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
   RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;
   system.groups.clear();
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     SystemUnit& unit = system.units[u];
     for (Index belt = 0; belt < 4; ++belt)
       system.groups.push_back({unit.first_row, 2, Vector2d(unit.by_reading.col(belt))});
@@ -254,7 +252,7 @@ VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
                    const RegressorSystem& system, const SizedCause& cause) {
   const VectorXd added = added_by(belts, {cause}, state);
   VectorXd column(system.e.size());
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     column.segment(unit.first_row, unit.rows) =
         unit.by_reading * added.segment<4>(belts::row_of(system.places[u].place, Belt::tl));

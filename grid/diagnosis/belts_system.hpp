@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
-#include "grid/belts/fit_report.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
 #include "grid/diagnosis/regressors.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "grid/belts/scale_by_tape.hpp"
-#include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/verdict_words.hpp"
+#include "grid/diagnosis/words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/belt_effects.hpp"
 
@@ -18,8 +18,8 @@ namespace {
 std::string end_of(const BeltEnd& end, const PointIndices& indices) {
   if (const auto* index = std::get_if<std::size_t>(&end))
     return fmt::format("{}", index_in_file(indices, *index));
-  if (const auto* belt = std::get_if<model::Belt>(&end)) return std::string(model::name(*belt));
-  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  if (const auto* belt = std::get_if<Belt>(&end)) return std::string(model::name(*belt));
+  const BedPoint at = std::get<CutHole>(end).commanded;
   return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
 }
 
@@ -87,7 +87,7 @@ std::string sentence(const Diagnosis& d) {
 }
 
 /// Lengths counted from the belt's end show as an offset that all four need.
-std::string left_out_arms(const model::BeltMachine& machine, const Diagnosis& d) {
+std::string left_out_arms(const BeltMachine& machine, const Diagnosis& d) {
   // Error of arm and extension: a tape measures the arm better.
   constexpr double kEqualWithin = 0.1;
   const double reach = model::reach_mm(machine);

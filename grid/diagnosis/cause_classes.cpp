@@ -6,8 +6,8 @@
 #include "grid/diagnosis/decision.hpp"
 
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -21,15 +21,15 @@ std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& syst
   const VectorXd square = squared_lengths(system, marginalised);
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
     const double score = std::abs(c(at)) / std::sqrt(square(at));
     if (result.empty() || result.back().first != system.regressors[k].cause) {
-      result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
+      result.emplace_back(system.regressors[k].cause, as_int(k));
       best = score;
     } else if (score > best) {
-      result.back().second = static_cast<int>(k);
+      result.back().second = as_int(k);
       best = score;
     }
   }
@@ -153,8 +153,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
                        reduced(marginalised, system.g.col(column)), cause,
                        system.regressor(column).fixed};
     const double whole = own.free.norm();
-    linear::add_product(own.free, -1.0, basis,
-                        linear::product(linear::transposed(basis), own.free));
+    linear::add_product(own.free, -1.0, basis, linear::inner(basis, own.free));
     // If the settings absorb a signature, only rounding would be compared.
     const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();
@@ -170,7 +169,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
     }
     classes[home].push_back(cause);
   }
-  for (std::size_t k = 0; k < classes.size(); ++k) {
+  for (const auto k : each_index(classes)) {
     CauseClass& members = classes[k];
     std::stable_partition(members.begin(), members.end(), std::not_fn(on_paper));
     if (mixed[k]) put_likelier_first(system, comparison, members);

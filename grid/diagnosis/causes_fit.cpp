@@ -13,16 +13,15 @@
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/order_search.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/largest_error.hpp"
 #include "grid/parallel.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-using model::effects::PlaceVariable;
 
 /// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
 struct HeldOutSquare {
@@ -64,10 +63,10 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
       squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
   }
   if (!squares.empty()) return squares;
-  for (std::size_t f = 0; f < plain.distances.size(); ++f) {
+  for (const auto f : each_index(plain.distances)) {
     const auto& before = plain.distances[f].distances;
     const auto& after = with_causes.distances[f].distances;
-    for (std::size_t k = 0; k < before.size(); ++k) {
+    for (const auto k : each_index(before)) {
       if (after[k].rejected) continue;
       squares.push_back({before[k].left_out_mm * before[k].left_out_mm,
                          after[k].left_out_mm * after[k].left_out_mm, squares.size()});
@@ -107,7 +106,7 @@ bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares) {
 
 struct ActingCause {
   Cause cause;
-  std::vector<model::AppliedEffect> effects;
+  std::vector<AppliedEffect> effects;
 };
 
 bool has_order(const MeasuredFile& file) {
@@ -131,11 +130,11 @@ const ParameterEstimate* unsure_place(const Cause& cause) {
 }
 
 /// A share of the cause, and the distance of its place from the likeliest.
-model::AppliedEffect applied_at(const Cause& cause, const ParameterEstimate& place, double off,
-                                double share) {
+AppliedEffect applied_at(const Cause& cause, const ParameterEstimate& place, double off,
+                         double share) {
   const EffectParameter& bounds = *place_parameter(*cause.cause.effect);
   const EffectParameter& size = cause.cause.effect->parameters.front();
-  model::AppliedEffect effect = applied(cause);
+  AppliedEffect effect = applied(cause);
   effect.parameters[place.parameter] = std::clamp(place.value + off, bounds.lower, bounds.upper);
   double& own = effect.parameters[std::string(size.name)];
   own = size.null + share * (own - size.null);
@@ -205,7 +204,7 @@ std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
 /// ratio of the plain map's error to this one's, at least 1.
 double factor_beyond(const CompensationMap& plain, const CompensationMap& own) {
   double factor = 1.0;
-  for (const model::MarkPoint& mark : raster(own.contents().domain, 25, 13, RasterOf::nodes)) {
+  for (const MarkPoint& mark : raster(own.contents().domain, 25, 13, RasterOf::nodes)) {
     if (own.status(mark) != MapStatus::extrapolated) continue;
     const auto before = plain.query(mark);
     const auto after = own.query(mark);
@@ -220,7 +219,7 @@ CompensationMap with_errors_before(const CompensationMap& own, const Compensatio
   MapContents contents = own.contents();
   const std::vector<MapPoint>& before = plain.contents().points;
   if (before.size() != contents.points.size()) return own;
-  for (std::size_t k = 0; k < before.size(); ++k) {
+  for (const auto k : each_index(before)) {
     contents.points[k].as_stated_mm = before[k].as_stated_mm;
     contents.points[k].sheet_placed_mm = before[k].sheet_placed_mm;
   }
@@ -274,7 +273,7 @@ void add_open_causes(const Measured& measured, const CausesFitOptions& options,
   const std::vector<Cause>& built_on = result.built_on;
   // Two for each uncertain place, one sigma to either side, and one for each undecided cause.
   std::vector<std::vector<ActingCause>> sets;
-  for (std::size_t k = 0; k < built_on.size(); ++k) {
+  for (const auto k : each_index(built_on)) {
     const ParameterEstimate* place = unsure_place(built_on[k]);
     if (place == nullptr) continue;
     for (const double off : {-place->sigma, place->sigma}) {
@@ -296,7 +295,7 @@ void add_open_causes(const Measured& measured, const CausesFitOptions& options,
   if (!built_on.empty()) differences.push_back({plain, map, least_known_size(built_on)});
   for (std::size_t k = 0; k < of_places; k += 2)
     if (others[k] && others[k + 1]) differences.push_back({*others[k], *others[k + 1], 0.5});
-  for (std::size_t k = 0; k < open_now.size(); ++k) {
+  for (const auto k : each_index(open_now)) {
     const auto& other = others[of_places + k];
     if (other) differences.push_back({map, *other, std::sqrt(open_now[k]->probability)});
   }
@@ -325,20 +324,20 @@ bool shows_scale(const ExtraReading& reading) {
   return reading.what == ReadingOf::link_pitch || reading.what == ReadingOf::tape_error;
 }
 
-model::AppliedEffect applied(const Cause& cause) {
-  model::AppliedEffect effect{
+AppliedEffect applied(const Cause& cause) {
+  AppliedEffect effect{
       std::string(cause.cause.effect->id), std::string(model::effects::name(cause.cause.side)), {}};
   for (const ParameterEstimate& p : cause.parameters) effect.parameters[p.parameter] = p.value;
   return effect;
 }
 
-std::vector<model::AppliedEffect> applied_over_places(const Cause& cause) {
+std::vector<AppliedEffect> applied_over_places(const Cause& cause) {
   const ParameterEstimate* place = unsure_place(cause);
   if (place == nullptr) return {applied(cause)};
   // A ninth of a gap between marks: less than a surface of these marks can show.
   constexpr int kPlaces = 9;
-  std::vector<model::AppliedEffect> effects;
-  for (int k = 0; k < kPlaces; ++k) {
+  std::vector<AppliedEffect> effects;
+  for (const int k : each_below(kPlaces)) {
     const double off = std::sqrt(3.0) * place->sigma * ((2.0 * k + 1.0) / kPlaces - 1.0);
     effects.push_back(applied_at(cause, *place, off, 1.0 / kPlaces));
   }
@@ -349,7 +348,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {
   const auto without_causes = [](tl::expected<JointFit, FitFailure> plain,
                                  std::string why) -> tl::expected<CausesFit, FitFailure> {
-    if (!plain) return tl::unexpected(plain.error());
+    if (!plain) return failed(plain);
     return noted({*std::move(plain), {}, {}, std::nullopt, 0.0, std::move(why)});
   };
   if (const std::size_t count = readings_of(measured); count > kMostWeighed)
@@ -362,7 +361,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   weighed.progress = options.fit.progress;
   NamingAndPlainFit made = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
   if (!made.naming) return without_causes(std::move(made.plain), made.naming.error().sentence());
-  if (!made.plain) return tl::unexpected(made.plain.error());
+  if (!made.plain) return failed(made.plain);
   return fit_on_causes(measured, *made.naming, *std::move(made.plain), options,
                        [&] { return naming_improves_the_map(made.naming->analysis); });
 }

@@ -8,7 +8,7 @@
 ///   chain,
 ///   - points in blocks of the bed that neither map was fitted to come out better with it, by more
 ///     than the standard error of the difference, the surfaces of both maps included, and do so as
-///     well where each block's naming is repeated without it (gain.hpp).
+///     well where each block's naming is repeated without it (held_out_improvement.hpp).
 ///
 ///   d_b = sum over block b of (|e_plain|^2 - |e|^2),  n_b points,  B blocks,  D = sum d_b / sum n_b
 ///   se^2 = B / (B - 1) sum (d_b - n_b D)^2 / (sum n_b)^2                                        (1)
@@ -102,9 +102,9 @@ CausesFit fit_on_causes(const Measured& measured, const Naming& naming, JointFit
 std::vector<std::string> in_words(const CausesFit& fit);
 
 /// A cause as in a machine file.
-model::AppliedEffect applied(const Cause& cause);
+AppliedEffect applied(const Cause& cause);
 /// The same with its size divided among its possible places; a single one if its place is certain,
 /// or if no step or bend depends on it.
-std::vector<model::AppliedEffect> applied_over_places(const Cause& cause);
+std::vector<AppliedEffect> applied_over_places(const Cause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

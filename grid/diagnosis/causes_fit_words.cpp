@@ -47,8 +47,8 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   if (sentences.empty() && fit.offered.empty())
     sentences.emplace_back("No single cause stands out, and the map needs none.");
   for (const OfferedCause& offered : fit.offered) {
-    sentences.push_back(fmt::format(
-        fmt::runtime(kOffered[static_cast<std::size_t>(offered.reason)]), worded(offered.cause)));
+    sentences.push_back(
+        fmt::format(fmt::runtime(kOffered[as_size(offered.reason)]), worded(offered.cause)));
   }
   if (fit.left_open_mm > 0.0) {
     sentences.push_back(fmt::format("{}. This contributes {:.2f} mm rms to the expected error.",

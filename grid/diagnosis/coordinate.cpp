@@ -9,9 +9,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::Belt;
-using model::Side;
-
 struct Described {
   std::string_view name;
   std::string_view unit = "mm";
@@ -41,7 +38,7 @@ constexpr Described kDescribed[] = {{"x"},
                                     {"angle_br", "rad", {}, Belt::br},
                                     {"place"}};
 
-const Described& described(Coordinate of) { return kDescribed[static_cast<std::size_t>(of)]; }
+const Described& described(Coordinate of) { return kDescribed[as_size(of)]; }
 
 }  // namespace
 
@@ -60,7 +57,7 @@ double value_at(const SystemPlace& place, Coordinate of, double across_rad) {
   }
   if (const auto belt = belt_of(of)) {
     const auto& values = unit_of(of) == "mm" ? place.length_mm : place.angle_rad;
-    return values[static_cast<std::size_t>(*belt)];
+    return values[as_size(*belt)];
   }
   switch (of) {
     case Coordinate::x:

@@ -49,8 +49,8 @@ std::string_view name(Coordinate of);
 /// "mm", "rad", "n", "visit": what a parameter's name ends in.
 std::string_view unit_of(Coordinate of);
 /// The chain or belt that it belongs to, if any.
-std::optional<model::Side> chain_of(Coordinate of);
-std::optional<model::Belt> belt_of(Coordinate of);
+std::optional<Side> chain_of(Coordinate of);
+std::optional<Belt> belt_of(Coordinate of);
 
 /// `across_rad`: of Coordinate::across, from x towards y. \pre A coordinate of such a machine, and not the place.
 double value_at(const estimation::SystemPlace& place, Coordinate of, double across_rad = 0.0);

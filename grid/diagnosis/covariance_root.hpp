@@ -11,9 +11,8 @@
 ///   const double square = noise.half_solve(e).squaredNorm();   // e' V^-1 e
 #pragma once
 
-#include <vector>
-
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -63,7 +62,7 @@ class LowRankNoise {
   linear::Like<X> half_solve(const X& x) const {
     linear::Like<X> result = linear::Like<X>::Zero(x.rows() + a_.cols(), x.cols());
     result.topRows(x.rows()) = x;
-    result.bottomRows(a_.cols()) = -normal_.solve(linear::product(linear::transposed(a_), x));
+    result.bottomRows(a_.cols()) = -normal_.solve(linear::inner(a_, x));
     linear::add_product(result.topRows(x.rows()), 1.0, a_, result.bottomRows(a_.cols()));
     return result;
   }
@@ -74,6 +73,49 @@ class LowRankNoise {
  private:
   MatrixXd a_;
   linear::Cholesky normal_;  ///< 1 + A'A
+};
+
+// Inner products of columns under the precision of a marginalised system's rows, with all rows and without some of
+// them, from one factorisation.
+//
+// Notation
+//   V     covariance of the rows, settings and further columns of unknown amplitude integrated out:
+//         V = R (1 + B B') R, R of the settings, B R^-1 times those columns;  P = V^-1 = 1 - T T'
+//   x     columns, given as R^-1 x
+//   O     rows left out
+//
+//   a' V_kept^-1 b = a' P b - (P a)_O' (P_OO)^-1 (P b)_O,   det V_kept = det V det P_OO
+//   a_O - V_Ok V_kept^-1 a_k = (P_OO)^-1 (P a)_O
+//
+// The first line is the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
+// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
+//
+// \code
+//   const LeaveOut rows(marginalised.root, LowRankNoise(b), x);
+//   const LeaveOut::Kept kept = rows.without({4, 5});
+// \endcode
+
+class LeaveOut {
+ public:
+  LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const MatrixXd& x);
+
+  Index rows() const { return weighed_.rows(); }
+
+  struct Kept {
+    MatrixXd inner;          ///< x' V_kept^-1 x
+    double log_det = 0.0;    ///< of V_kept
+    linear::Cholesky block;  ///< P_OO
+    MatrixXd weighed;        ///< (P x)_O
+    /// x_O minus its prediction by the kept rows.
+    MatrixXd missed() const { return block.solve(weighed); }
+  };
+  [[nodiscard]] Kept without(const Rows& out) const;
+
+ private:
+  MatrixXd explained_;  ///< T
+  MatrixXd weighed_;    ///< P x
+  MatrixXd inner_;      ///< x' P x
+  double log_det_ = 0.0;
 };
 
 }  // namespace chaintrue::grid::diagnosis

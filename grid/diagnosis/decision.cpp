@@ -91,7 +91,7 @@ class Decider {
         if (k < p.size()) p[k] += grouped.probability;
       }
     }
-    for (std::size_t k = 0; k < p.size(); ++k) result_.marginal.push_back({k, std::min(p[k], 1.0)});
+    for (const auto k : each_index(p)) result_.marginal.push_back({k, std::min(p[k], 1.0)});
     stable_sort(result_.marginal, descending(&ClassProbability::probability));
   }
 

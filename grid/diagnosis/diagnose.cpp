@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/diagnose.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/belts/belts_error.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/law_model.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/parallel.hpp"
+#include "grid/plotter/drawing_fit.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -29,12 +34,12 @@ std::string_view name(Verdict verdict) {
   constexpr std::string_view kNames[] = {
       "named",      "named_set",    "several_causes", "unknown_pattern", "noise_larger_than_stated",
       "bad_points", "nothing_found"};
-  return kNames[static_cast<std::size_t>(verdict)];
+  return kNames[as_size(verdict)];
 }
 
 std::string_view name(Observations observations) {
   constexpr std::string_view kNames[] = {"points", "distances", "readings", "belts", "measures"};
-  return kNames[static_cast<std::size_t>(observations)];
+  return kNames[as_size(observations)];
 }
 
 namespace {
@@ -96,7 +101,7 @@ std::vector<DeclaredAnswer> declared_answers(const Analysis& a, const Diagnosis&
   return answers;
 }
 
-// Progress of a diagnosis; gain.cpp reports each block.
+// Progress of a diagnosis; held_out_improvement.cpp reports its own.
 constexpr int kWorkSteps = 4;
 constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
 
@@ -121,7 +126,7 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
   for (std::size_t k = 0; k < names.size() && k < a.session.parts.size(); ++k) {
     std::array<estimation::SessionZero, 2> zeros;
     const ColumnSet& columns = a.session.parts[k].zero_columns;
-    for (std::size_t z = 0; z < columns.size(); ++z) {
+    for (const auto z : each_index(columns)) {
       zeros[z] = {a.estimate.setting_change(columns[z]),
                   std::sqrt(a.estimate.setting_covariance(columns[z], columns[z]))};
     }
@@ -178,7 +183,7 @@ void count_law(Diagnosis& d) {
 
 std::string_view name(DeclaredAnswer::Says says) {
   constexpr std::string_view kNames[] = {"confirmed", "denied", "open", "not_testable"};
-  return kNames[static_cast<std::size_t>(says)];
+  return kNames[as_size(says)];
 }
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
@@ -189,7 +194,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
           : NamingAndPlainFit{
                 name_causes(measured, options, NamingFor::report),
                 tl::unexpected(FitFailure(FitReason::not_converged, "no map was asked for"))};
-  if (!found.naming) return tl::unexpected(found.naming.error());
+  if (!found.naming) return failed(found.naming);
   Naming& naming = *found.naming;
   const Analysis& a = naming.analysis;
   const LawsFound& laws = naming.laws;
@@ -241,6 +246,126 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   }
   note_zeros(sessions, a, d);
   state_input(measured, d);
+  return d;
+}
+
+namespace {
+
+constexpr WorkStep kComparingDrawing{"the causes against each other", 1, 1};
+
+/// Slips and bad input, as a fit refuses them. A drawing that no settings explain has a cause,
+/// which the diagnosis looks for.
+std::optional<DiagnosisFailure> refused(const TestDrawing& drawing) {
+  using Reason = DiagnosisFailure::Reason;
+  const auto fit = fit_drawing(drawing);
+  if (fit) return std::nullopt;
+  const DrawingReason why = fit.error().reason;
+  if (why == DrawingReason::no_settings_fit || why == DrawingReason::not_converged)
+    return std::nullopt;
+  return DiagnosisFailure{why == DrawingReason::too_few ? Reason::too_few_points
+                          : why == DrawingReason::cross_out_of_reach
+                              ? Reason::point_unreachable
+                              : Reason::contradictory_settings,
+                          fit.error().sentence()};
+}
+
+std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
+  const auto parameters = a.session.mechanism->parameters();
+  std::vector<DrawnSetting> settings;
+  for (const auto k : each_index(parameters)) {
+    const auto at = as_index(k);
+    DrawnSetting own{std::string(parameters[k].name), a.session.stated_value(at),
+                     a.system.setting(at) + a.estimate.setting_change(at),
+                     std::sqrt(a.estimate.setting_covariance(at, at))};
+    own.off = std::abs(own.found - own.set) > kOffSigmas * own.sigma;
+    settings.push_back(std::move(own));
+  }
+  return settings;
+}
+
+std::vector<DrawnValue> drawn_values(const Analysis& a, const TestDrawing& drawing) {
+  const Flags& outliers = marginalised_system(a).outliers;
+  std::vector<DrawnValue> values(drawing.measures.size());
+  for (const auto u : each_index(a.session.units)) {
+    const SystemUnit& unit = a.system.units[u];
+    const std::size_t index = a.session.units[u].index;
+    DrawnValue& own = values[index];
+    own.name = words_of(drawing, index);
+    own.measured_mm = drawing.measures[index].value_mm;
+    own.explained_mm = own.measured_mm - unit.unwhitened(a.estimate.left)(0);
+    own.rejected = outliers[u];
+  }
+  return values;
+}
+
+}  // namespace
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
+                                                   const DiagnosisOptions& options) {
+  if (auto failure = refused(drawing)) return tl::unexpected(*std::move(failure));
+  tell(options.progress, kComparingDrawing);
+  auto readings = drawn_measures_of(drawing).value();
+  ObservationSet session = estimation::observation_set(
+      {}, {std::make_shared<const observation::DrawnMeasures>(std::move(readings))},
+      model::make_plotter_mechanism(drawing.machine));
+  session.fewest_units = kFewestMeasures;
+  auto analysis = analyse(std::move(session), options);
+  if (!analysis) return failed(analysis);
+  const Analysis& a = *analysis;
+  Diagnosis d;
+  d.observations = Observations::drawing;
+  d.grid_name = drawing.name;
+  take_findings(a, d);
+  d.outliers = outliers_found(a);
+  d.drawing = DrawingFindings{drawing.machine.name, drawn_settings(a), drawn_values(a, drawing)};
+  put_into_words(a, d);
+  return d;
+}
+
+namespace {
+
+DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
+  using Of = BeltsFitFailure::Reason;
+  using Reason = DiagnosisFailure::Reason;
+  return {failure.reason == Of::too_few_points || failure.reason == Of::not_determined
+              ? Reason::too_few_points
+              : Reason::contradictory_settings,
+          failure.sentence()};
+}
+
+}  // namespace
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
+                                                   const DiagnosisOptions& options,
+                                                   const PointIndices& indices) {
+  auto analysed = analyse(belts, options);
+  if (!analysed) return tl::unexpected(failure_of(analysed.error()));
+  BeltsAnalysis& a = *analysed;
+  // Belongs to the decision before the verdict.
+  const auto fit = fit_with_causes(a);
+  const auto error = fit ? error_of_belts(*fit) : std::nullopt;
+  const BeltRules rules(a);
+  judge(rules, a);
+  const LawsFound found = laws_found(analysis_of_laws(a));
+  std::vector<CauseGivenLaw> given_law = name_given_law(found, rules, a);
+  Diagnosis d;
+  if (error) d.tool_today = error->today;
+  d.observations = Observations::belts;
+  d.grid_name = belts.name;
+  take_findings(a, d);
+  take_belts_findings(a, d);
+  take_laws(found.laws, d);
+  for (Law& law : d.unexplained->laws) {
+    for (LawResidual& point : law.points) point.index = index_in_file(indices, point.index);
+  }
+  d.unexplained->causes_given_law = std::move(given_law);
+  d.bed_parts = bed_part_findings(a);
+  for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);
+  const BeltsNext next = options.next_measurements ? next_measurements(a, indices) : BeltsNext{};
+  d.belts->second_pass = next.second_pass;
+  if (options.next_measurements) d.next_measurements = measurements_of(a, next, indices);
+  put_into_words(a, next, d);
+  for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   return d;
 }
 

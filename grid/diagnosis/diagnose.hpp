@@ -16,7 +16,7 @@
 
 #include <tl/expected.hpp>
 
-#include "grid/belts/point_indices.hpp"
+#include "grid/belts/measured_belts.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/options.hpp"
 #include "grid/observation/measured.hpp"

@@ -22,12 +22,12 @@
 #include <vector>
 
 #include "grid/diagnosis/belts_findings.hpp"
-#include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/law.hpp"
+#include "grid/diagnosis/options.hpp"
 #include "grid/diagnosis/pictures.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/observation/visiting_order.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -155,9 +155,9 @@ struct ErrorBudget {
 struct Outlier {
   Observations of = Observations::points;  ///< points, distances or belts
   std::size_t index = 0;                   ///< for a belt's reading, the index of its place
-  std::optional<model::Belt> belt{};       ///< empty for belts: all readings at the place
+  std::optional<Belt> belt{};              ///< empty for belts: all readings at the place
   /// The belt at the same place that may be wrong instead, if the lengths do not show which.
-  std::optional<model::Belt> or_belt{};
+  std::optional<Belt> or_belt{};
   /// Implied position of the tool minus the mark.
   Vector2d shift_mm = Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
@@ -194,7 +194,7 @@ struct DeclaredAnswer {
 std::string_view name(DeclaredAnswer::Says says);
 
 struct CalibratedSetting {
-  model::Setting setting = model::Setting::motor_left_x_mm;
+  Setting setting = Setting::motor_left_x_mm;
   double stated = 0.0;
   double stated_sigma = 0.0;
   double calibrated = 0.0;
@@ -220,7 +220,7 @@ struct HeldOutImprovement {
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
   /// The reduction of the tool's mean square error over the measured area
-  /// (held_out_fold.hpp). Held-out blocks show a larger reduction, since both models
+  /// (held_out_improvement.hpp). Held-out blocks show a larger reduction, since both models
   /// extrapolate there.
   double drop_mm2 = 0.0;
   /// That drop relative to the mean square before it, both without the noise of the readings.
@@ -234,10 +234,10 @@ enum class MeasurementKind { point, revisit, reading, distance };
 
 struct NextMeasurement {
   MeasurementKind kind = MeasurementKind::point;
-  std::string words;                     ///< point, revisit and distance: what to do, for a person
-  std::string side;                      ///< of a reading, if it has one
-  std::optional<model::MarkPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
-  double sigma = 0.0;                    ///< of a reading: required accuracy
+  std::string words;              ///< point, revisit and distance: what to do, for a person
+  std::string side;               ///< of a reading, if it has one
+  std::optional<MarkPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
+  double sigma = 0.0;             ///< of a reading: required accuracy
   /// Probability that the right cause is then named alone, this and all above it done.
   double raises_probability_to = 0.0;
   /// For a distance: its ends, as in the holes' file. A hole to be cut has no name yet and is
@@ -246,7 +246,7 @@ struct NextMeasurement {
   std::vector<std::string> to{};
   /// For a place read by four belts: the names of the pulled belts. Empty: those of the frame's
   /// orientation.
-  std::vector<model::Belt> pulled{};
+  std::vector<Belt> pulled{};
   std::optional<ReadingOf> reading{};  ///< of a reading: what to read
 };
 
@@ -354,9 +354,9 @@ struct Diagnosis {
   std::vector<NextMeasurement> next_measurements;
   /// The calibrated machine with every named cause that belongs in it, which never includes an
   /// effect of the paper or of the visit. Not for belts: see `belts`.
-  model::Machine extended_machine;
+  Machine extended_machine;
   /// Named causes that do not belong in the machine: the corrections of the data.
-  std::vector<model::AppliedEffect> data_corrections;
+  std::vector<AppliedEffect> data_corrections;
 
   double noise_factor = 1.0;   ///< noise found, as a multiple of what was stated
   double family_wise_p = 1.0;  ///< of the first cause

@@ -2,7 +2,9 @@
 #include "grid/diagnosis/discrepancy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -47,7 +49,7 @@ MatrixXd between(const DiscrepancyKernel& kernel, const RegressorSystem& to, con
   const auto to_places = rows_by_place(to, rows, kernel);
   const auto from_places = rows_by_place(from, columns, kernel);
   MatrixXd c = MatrixXd::Zero(rows.size(), columns.size());
-  for (std::size_t p = 0; p < to_places.size(); ++p) {
+  for (const auto p : each_index(to_places)) {
     for (std::size_t q = 0; q < (symmetric ? p + 1 : from_places.size()); ++q) {
       if (to_places[p].empty() || from_places[q].empty()) continue;
       const SystemPlace& here = to.places[p];
@@ -78,7 +80,7 @@ std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
                                         const std::vector<SystemPlace>& places) {
   std::vector<FieldArgument> result;
   const Index components = field.of == Coordinate::border ? 2 : 1;
-  for (Index component = 0; component < components; ++component) {
+  for (const Index component : each_below(components)) {
     for (const SystemPlace& place : places) {
       result.push_back(field_argument(field, place, component));
     }
@@ -156,13 +158,13 @@ MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
   MatrixXd factor(n, std::min<Index>(n, 32));  // with room for more
   Index rank = 0;
   VectorXd left(n);
-  for (Index i = 0; i < n; ++i) left(i) = covariance(i, i);
+  for (const Index i : each_below(n)) left(i) = covariance(i, i);
   for (; rank < n; ++rank) {
     Index pivot = 0;
     const double most = left.maxCoeff(&pivot);
     if (most < least) break;
     VectorXd column(n);
-    for (Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
+    for (const Index i : each_below(n)) column(i) = covariance(i, pivot);
     const VectorXd own = factor.row(pivot).head(rank);
     linear::add_product(column, -1.0, factor.leftCols(rank), own);
     column /= std::sqrt(most);
@@ -189,7 +191,7 @@ FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
       const MatrixXd entry =
           KeptRows::of_unit(own, place.by_chain * field_entry(field, system.places[place.place]));
       const auto at = as_index(place.place);
-      for (Index k = 0; k < entry.rows(); ++k) {
+      for (const Index k : each_below(entry.rows())) {
         result.first.row(own.at + k) += entry(k, 0) * factor.row(at);
         result.second.row(own.at + k) += entry(k, 1) * factor.row(second + at);
       }
@@ -227,6 +229,159 @@ MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
     at += part.cols();
   }
   return all / std::sqrt(as_double(kernel.fields.size()));
+}
+
+namespace {
+
+/// Density of a half-Cauchy over the logarithm of the strength, up to a constant.
+double cauchy_weight(double strength) {
+  return strength / (1.0 + std::pow(strength / kDiscrepancyScale, 2));
+}
+
+/// Directions of entry, an eighth of half a turn apart: any ratio is within 11 degrees of one, and
+/// loses at most 4 % of its square to the other component.
+constexpr int kDirections = 8;
+
+/// Length of a trend over the bed: two thirds of its height, a third of its width.
+constexpr double kTrendMm = 800.0;
+
+class Kernels {
+ public:
+  Kernels() {
+    // One field over the bed, at any ratio of the chains: dents and waves of a fifth of the bed's
+    // height up to the whole.
+    std::vector<DiscrepancyField> group;
+    for (const double mm : {140.0, 250.0, 450.0}) at_any_ratio({Coordinate::place, mm}, group);
+    take(group, 0.35);
+    // Each chain separately.
+    for (const double mm : {250.0, 450.0, 800.0}) group.push_back({Coordinate::place, mm});
+    take(group, 0.15);
+    // The tool moved along x and along y by functions of x alone and of y alone, as edges, boards
+    // and folds do it. These have a trend over the whole bed, which must not be mistaken for a
+    // scale.
+    all_.push_back({{{Coordinate::x, 180.0, FieldEntry::tool},
+                     {Coordinate::y, 180.0, FieldEntry::tool},
+                     {Coordinate::x, kTrendMm, FieldEntry::tool},
+                     {Coordinate::y, kTrendMm, FieldEntry::tool}},
+                    0.10});
+    // The tool moved where the sled hangs over the border, equally on all sides.
+    all_.push_back({{{Coordinate::border, 180.0, FieldEntry::tool}}, 0.05});
+    // The tool moved along one axis of the sheet.
+    for (const Coordinate of : {Coordinate::place, Coordinate::x, Coordinate::y}) {
+      for (const double mm : {250.0, 450.0}) along_an_axis({of, mm}, group);
+    }
+    // The tool moved the way it goes across something: a board's wave, a fold.
+    oblique({Coordinate::across, 200.0}, group);
+    take(group, 0.20);
+    // A function of one coordinate: a strip of the banner, a beam, a chain, its angle, its pull.
+    for (const Coordinate of :
+         {Coordinate::x, Coordinate::y, Coordinate::length_left, Coordinate::length_right}) {
+      for (const double mm : {150.0, 400.0}) at_any_ratio({of, mm}, group);
+    }
+    for (const Coordinate of : {Coordinate::angle_left, Coordinate::angle_right}) {
+      for (const double rad : {0.1, 0.25}) at_any_ratio({of, rad}, group);
+    }
+    for (const Coordinate of : {Coordinate::tension_left, Coordinate::tension_right}) {
+      at_any_ratio({of, 15.0}, group);
+    }
+    take(group, 0.15);
+  }
+  const std::vector<DiscrepancyKernel>& all() const { return all_; }
+
+ private:
+  static void at_any_ratio(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
+    for (const int k : each_below(kDirections)) {
+      field.direction_rad = std::numbers::pi * k / kDirections;
+      group.push_back(field);
+    }
+  }
+  static void along_an_axis(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
+    field.entry = FieldEntry::tool;
+    for (const double direction : {0.0, 0.5 * std::numbers::pi}) {
+      field.direction_rad = direction;
+      group.push_back(field);
+    }
+  }
+  /// x and y are covered elsewhere. A fold is sensitive to its direction: twice as many as
+  /// directions of entry.
+  static void oblique(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
+    field.entry = FieldEntry::tool;
+    for (int k = 1; k < 2 * kDirections; ++k) {
+      if (k == kDirections) continue;
+      field.across_rad = 0.5 * std::numbers::pi * k / kDirections;
+      field.direction_rad = field.across_rad;
+      group.push_back(field);
+    }
+  }
+  /// As above, with a trend.
+  static DiscrepancyField trend_of(DiscrepancyField field) {
+    field.length = kTrendMm;
+    return field;
+  }
+  void take(std::vector<DiscrepancyField>& group, double prior) {
+    for (const DiscrepancyField& field : group) {
+      const double share = prior / as_double(group.size());
+      if (field.entry == FieldEntry::tool && field.of != Coordinate::place) {
+        all_.push_back({{field, trend_of(field)}, share});
+      } else {
+        all_.push_back({{field}, share});
+      }
+    }
+    group.clear();
+  }
+  std::vector<DiscrepancyKernel> all_;
+};
+
+}  // namespace
+
+const DiscrepancyFamily& chain_discrepancies() {
+  static const DiscrepancyFamily kFamily{Kernels().all(), kDiscrepancyStrengths};
+  return kFamily;
+}
+
+const DiscrepancyFamily& length_discrepancies(bool ordered) {
+  // In sigmas: from barely visible to four times the residual of real four-belt frames.
+  static constexpr std::array kStrengths = {6.0, 12.0, 24.0, 48.0};
+  // From twice the usual distance of two places to a quarter of a frame; over the visits of a row.
+  static const auto kernel = [](double place_mm, double visits, double prior) {
+    DiscrepancyKernel own{{{Coordinate::place, place_mm, FieldEntry::lengths}}, prior};
+    if (visits > 0.0) own.fields.push_back({Coordinate::visit, visits, FieldEntry::lengths});
+    return own;
+  };
+  static const DiscrepancyFamily kOrdered{
+      {kernel(150.0, 0.0, 0.2), kernel(300.0, 0.0, 0.2), kernel(600.0, 0.0, 0.2),
+       kernel(300.0, 6.0, 0.2), kernel(600.0, 6.0, 0.2)},
+      kStrengths};
+  static const DiscrepancyFamily kUnordered{
+      {kernel(150.0, 0.0, 0.2), kernel(300.0, 0.0, 0.4), kernel(600.0, 0.0, 0.4)}, kStrengths};
+  return ordered ? kOrdered : kUnordered;
+}
+
+const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered) {
+  static const auto with_single = [](DiscrepancyFamily family) {
+    constexpr std::array kPlaceMm = {150.0, 300.0, 600.0};
+    constexpr Index kLengths = 4;
+    constexpr double kHalf = 0.5;
+    for (DiscrepancyKernel& own : family.kernels) own.prior *= kHalf;
+    for (const double place_mm : kPlaceMm) {
+      for (const Index length : each_below(kLengths)) {
+        DiscrepancyField field{Coordinate::place, place_mm, FieldEntry::lengths};
+        field.alone = length;
+        family.kernels.push_back({{field}, kHalf / as_double(kPlaceMm.size() * kLengths)});
+      }
+    }
+    return family;
+  };
+  static const DiscrepancyFamily kOrdered = with_single(length_discrepancies(true));
+  static const DiscrepancyFamily kUnordered = with_single(length_discrepancies(false));
+  return ordered ? kOrdered : kUnordered;
+}
+
+double DiscrepancyFamily::log_share_of(int discrepancy) const {
+  double sum = 0.0;
+  for (const double strength : strengths) sum += cauchy_weight(strength);
+  return std::log(cauchy_weight(strength_of(discrepancy)) / sum) +
+         std::log(kernels[kernel_of(discrepancy)].prior);
 }
 
 }  // namespace chaintrue::grid::diagnosis

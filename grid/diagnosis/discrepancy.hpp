@@ -28,7 +28,7 @@
 #include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -66,7 +66,7 @@ struct DiscrepancyFamily {
   /// noise.
   std::span<const double> strengths;
 
-  int count() const { return static_cast<int>(kernels.size() * strengths.size()); }
+  int count() const { return as_int(kernels.size() * strengths.size()); }
   std::size_t kernel_of(int discrepancy) const { return as_size(discrepancy) / strengths.size(); }
   double strength_of(int discrepancy) const {
     return strengths[as_size(discrepancy) % strengths.size()];

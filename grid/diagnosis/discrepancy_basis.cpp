@@ -49,8 +49,8 @@ MatrixXd gram(const Block& a, const Block& b) {
            a.s * b.s * p.gram22;
   }
   const Products& q = *b.products;
-  return linear::product(linear::transposed(MatrixXd(a.c * p.parts.first + a.s * p.parts.second)),
-                         MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
+  return linear::inner(MatrixXd(a.c * p.parts.first + a.s * p.parts.second),
+                       MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
 }
 
 }  // namespace
@@ -104,14 +104,13 @@ class DiscrepancyBasis::Fields {
     p.field = field;
     p.parts = std::move(parts);
     p.gram11 = linear::gram(p.parts.first);
-    p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
+    p.gram12 = linear::inner(p.parts.first, p.parts.second);
     p.gram22 = linear::gram(p.parts.second);
     return p;
   }
 
   static std::pair<MatrixXd, MatrixXd> products_with(const Products& products, const MatrixXd& e) {
-    return {linear::product(linear::transposed(products.parts.first), e),
-            linear::product(linear::transposed(products.parts.second), e)};
+    return {linear::inner(products.parts.first, e), linear::inner(products.parts.second, e)};
   }
 
   const RegressorSystem& system_;
@@ -225,7 +224,7 @@ DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double s
   const Index r = on_.size();
   Half result{ArrayXd(r), ArrayXd::Zero(r), 0.0};
   double d = 0.0;
-  for (Index k = 0; k < r; ++k) {
+  for (const Index k : each_below(r)) {
     const double own = on_(k) + shift;
     const double before = k > 0 ? subdiagonal_(k - 1) : 0.0;
     if (k > 0) result.above(k) = before / std::sqrt(d);
@@ -238,7 +237,7 @@ DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double s
 }
 
 void DiscrepancyBasis::GivenKernel::apply(const Half& half, MatrixXd& lines) {
-  for (Index k = 0; k < lines.cols(); ++k) {
+  for (const Index k : each_below(lines.cols())) {
     if (k > 0) lines.col(k) -= half.above(k) * lines.col(k - 1);
     lines.col(k) *= half.on(k);
   }

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "grid/diagnosis/ties.hpp"
-#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -67,7 +67,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
 
 /// Columns that are nonzero only in the left-out rows become exactly 0, not a rounding difference.
 void clear_unobserved_columns(const NormalEquations& before, NormalEquations& equations) {
-  for (Index i = 0; i < equations.gg.rows(); ++i) {
+  for (const Index i : each_below(equations.gg.rows())) {
     if (equations.gg(i, i) > kNothingLeft * before.gg(i, i)) continue;
     equations.gg.row(i).setZero();
     equations.gg.col(i).setZero();
@@ -77,7 +77,7 @@ void clear_unobserved_columns(const NormalEquations& before, NormalEquations& eq
 
 /// The outlier groups with all of these units set to `rejected`.
 Flags with_units(const RegressorSystem& system, Flags groups, const Indices& units, bool rejected) {
-  for (std::size_t k = 0; k < groups.size(); ++k) {
+  for (const auto k : each_index(groups)) {
     if (contains(units, system.unit_of(system.groups[k]))) groups[k] = rejected;
   }
   return groups;
@@ -175,7 +175,7 @@ Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs cou
     // Marginalised systems that differ in the points left out alone are one.
     const std::size_t home =
         home_of(result.systems, with_units(system_, whole.outliers, units, true));
-    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
+    for (const auto k : each_index(factorised.models)) {
       const CandidateModel& model = factorised.models[k];
       const auto [same, is_new] =
           known.try_emplace({home, factorised.discrepancy, model.regressors}, result.models.size());
@@ -197,12 +197,11 @@ Downdating::Without Downdating::without(const Indices& units) const {
   Without result;
   ModelComparison& comparison = result.comparison;
   comparison.marginalised_systems = std::move(all.systems);
-  for (std::size_t k = 0; k < all.models.size(); ++k) {
+  for (const auto k : each_index(all.models)) {
     const ModelWithout& own = all.models[k];
     if (own.same != k || !std::isfinite(own.log_weight)) continue;
     comparison.models.push_back({own.model->regressors, own.model->discrepancy, own.home,
-                                 own.log_weight, own.evidence.larger_noise,
-                                 own.evidence.quadratic});
+                                 own.log_weight, own.evidence.larger_noise});
   }
   sort_by_weight(comparison);
   for (const auto& [score, marginalised] : all.strongest) {
@@ -226,7 +225,7 @@ std::vector<double> Downdating::probabilities_without(const Indices& units,
   // Weights with all points, of those that are one without them.
   std::vector<double> log_all(models.size(), kMinusInfinity);
   std::vector<double> weights;
-  for (std::size_t k = 0; k < models.size(); ++k) {
+  for (const auto k : each_index(models)) {
     double& sum = log_all[models[k].same];
     sum = log_sum(sum, models[k].model->log_weight);
     if (models[k].same == k && std::isfinite(models[k].log_weight))

@@ -4,7 +4,7 @@
 /// of the cost of a new comparison.
 ///
 /// A marginalised system with one discrepancy or none is factorised once, and its inner products without the
-/// points follow from that (leave_out.hpp).
+/// points follow from that (covariance_root.hpp).
 ///
 /// Exact for each followed model; models that the comparison dropped, sets of outliers that it
 /// never tried, and discrepancies below a least probability are ignored.
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/diagnosis/leave_out.hpp"
+#include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/other_places.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -16,12 +16,12 @@ namespace chaintrue::grid::diagnosis {
 std::string_view name(BudgetLine::What what) {
   constexpr std::string_view kNames[] = {"settings", "cause", "unexplained", "noise",
                                          "inseparable"};
-  return kNames[static_cast<std::size_t>(what)];
+  return kNames[as_size(what)];
 }
 
 std::string_view name(BudgetLine::ChangesWith changes) {
   constexpr std::string_view kNames[] = {"nothing", "place", "order", "direction"};
-  return kNames[static_cast<std::size_t>(changes)];
+  return kNames[as_size(changes)];
 }
 
 namespace {
@@ -38,7 +38,7 @@ BudgetLine::ChangesWith changes_with(const Effect& effect) {
 
 /// A corner of the marked area, and the points a part's length from it towards the middle, in
 /// either direction.
-std::array<model::MarkPoint, 3> corner(const interp::Rectangle& area, bool right, bool top) {
+std::array<MarkPoint, 3> corner(const interp::Rectangle& area, bool right, bool top) {
   const double x = right ? area.x_max : area.x_min;
   const double y = top ? area.y_max : area.y_min;
   return {{{x, y}, {x + (right ? -kPartMm : kPartMm), y}, {x, y + (top ? -kPartMm : kPartMm)}}};
@@ -107,7 +107,7 @@ std::optional<double> part_of_pattern(const Analysis& a, const std::vector<Corne
 }
 
 Shifts without(Shifts all, const Shifts& part) {
-  for (std::size_t i = 0; i < part.size(); ++i) all[i] -= part[i];
+  for (const auto i : each_index(part)) all[i] -= part[i];
   return all;
 }
 
@@ -155,7 +155,7 @@ ErrorBudget error_budget(const Analysis& a) {
     add(line, part);
   };
   const std::vector<Corner> corners = corners_of(a);
-  for (std::size_t k = 0; k < a.decision.regressors.size(); ++k) {
+  for (const auto k : each_index(a.decision.regressors)) {
     const Regressor& own = regressor(a, a.decision.regressors[k]);
     const double size = a.estimate.coefficient(as_index(k));
     BudgetLine line{.what = BudgetLine::What::cause, .cause = own.cause};

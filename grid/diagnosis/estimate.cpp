@@ -24,7 +24,7 @@ Solution solve(const Unknowns& unknowns, const VectorXd& settings, VectorXd data
   // Scaled by the priors the normal equations are well conditioned: I + S A'A S.
   const MatrixXd scaled = linear::scaled_columns(design, unknowns.sigma);
   const linear::Cholesky normal(linear::one_plus_gram(scaled));
-  const VectorXd x = normal.solve(linear::product(linear::transposed(scaled), data));
+  const VectorXd x = normal.solve(linear::inner(scaled, data));
   return {mean + unknowns.sigma.cwiseProduct(x),
           unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }
@@ -41,7 +41,7 @@ void take_discrepancy_out(const RegressorSystem& system, const MarginalisedSyste
     return;
   }
   estimate.left_given_discrepancy(marginalised.kept.rows()) = estimate.discrepancy_weights;
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     if (!marginalised.outliers[u]) continue;
     const SystemUnit& unit = system.units[u];
     for (const observation::PlaceColumns& place_columns : unit.places) {
@@ -99,7 +99,7 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   result.coefficient = VectorXd::Zero(std::ssize(regressors));
   result.coefficient_sigma = result.coefficient;
   VectorXd data = system.e;
-  for (std::size_t k = 0; k < regressors.size(); ++k) {
+  for (const auto k : each_index(regressors)) {
     if (system.regressor(regressors[k]).fixed) {
       result.coefficient(as_index(k)) = 1.0;
       data -= system.g.col(regressors[k]);
@@ -113,7 +113,7 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     solution = solve(unknowns_of(system, marginalised, result.free_regressors()),
                      system.expected_change, marginalised.kept(data), noise.covariance);
     std::size_t outside = result.free.size();
-    for (std::size_t k = 0; k < result.free.size(); ++k) {
+    for (const auto k : each_index(result.free)) {
       const Regressor& d = system.regressor(regressors[result.free[k]]);
       const double value = solution.value(settings + as_index(k));
       if (value < d.lowest || value > d.highest) outside = k;
@@ -129,7 +129,7 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   result.setting_change = solution.value.head(settings);
   result.left = std::move(data);
   linear::add_product(result.left, -1.0, system.by_setting, result.setting_change);
-  for (std::size_t k = 0; k < result.free.size(); ++k) {
+  for (const auto k : each_index(result.free)) {
     const auto at = as_index(result.free[k]);
     const Index column = settings + as_index(k);
     result.coefficient(at) = solution.value(column);
@@ -149,12 +149,12 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
-  for (std::size_t k = 0; k < result.free.size(); ++k) {
+  for (const auto k : each_index(result.free)) {
     const Index column = settings + as_index(k);
     result.coefficient_sigma(as_index(result.free[k])) =
         std::sqrt(result.covariance(column, column));
   }
-  for (std::size_t k = 0; k < regressors.size(); ++k) {
+  for (const auto k : each_index(regressors)) {
     const auto at = as_index(k);
     const bool is_fixed = system.regressor(regressors[k]).fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -29,7 +27,7 @@ NoiseDensity::NoiseDensity(double dof, Index rows) : dof_(dof), rows_(as_double(
     return Component{anchor, std::log(prior) + constant + 0.5 * dof * std::log(anchor)};
   };
   components_.front() = component(1.0, 1.0 - kLargerNoisePrior);
-  for (std::size_t k = 0; k < std::size(kLargerNoise); ++k)
+  for (const std::size_t k : each_below(std::size(kLargerNoise)))
     components_[k + 1] = component(kLargerNoise[k], kLargerNoisePrior / std::size(kLargerNoise));
 }
 
@@ -43,12 +41,12 @@ double NoiseDensity::log_density_as_stated(double quadratic) const {
 
 NoiseDensity::Averages NoiseDensity::averages(double quadratic) const {
   std::array<double, std::tuple_size_v<decltype(components_)>> log_parts;
-  for (std::size_t k = 0; k < log_parts.size(); ++k) log_parts[k] = part(components_[k], quadratic);
+  for (const auto k : each_index(log_parts)) log_parts[k] = part(components_[k], quadratic);
   const double most = *max_element(log_parts);
   double sum = 0.0;
   double squares = 0.0;
   double as_stated = 0.0;
-  for (std::size_t k = 0; k < log_parts.size(); ++k) {
+  for (const auto k : each_index(log_parts)) {
     const double share = std::exp(log_parts[k] - most);
     sum += share;
     squares += share * (components_[k].anchor + quadratic);
@@ -65,7 +63,7 @@ double log_price_of_outlier(Index rows) {
 double log_price_of_outliers(const RegressorSystem& system, const Flags& outliers) {
   double price = 0.0;
   Rows directions(system.units.size(), 0);
-  for (std::size_t k = 0; k < outliers.size(); ++k) {
+  for (const auto k : each_index(outliers)) {
     const OutlierGroup& group = system.groups[k];
     if (!outliers[k]) continue;
     if (!group.direction) {
@@ -110,8 +108,8 @@ double length_in_noise(const RegressorSystem& system, const KeptRows& kept,
 VectorXd left_by(const KeptRows& kept, const MatrixXd& columns, const VectorXd& sigma,
                  VectorXd rows) {
   const MatrixXd scaled = linear::scaled_columns(kept(columns), sigma);
-  const VectorXd x = linear::Cholesky(linear::one_plus_gram(scaled))
-                         .solve(linear::product(linear::transposed(scaled), kept(rows)));
+  const VectorXd x =
+      linear::Cholesky(linear::one_plus_gram(scaled)).solve(linear::inner(scaled, kept(rows)));
   linear::add_product(rows, -1.0, columns, sigma.cwiseProduct(x));
   return rows;
 }
@@ -133,7 +131,7 @@ ColumnSet NormalEquations::positions(const RegressorSet& some) const {
 
 VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,
                        VectorXd squares) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
+  for (const auto i : each_index(columns)) {
     const double sigma = regressors[as_size(columns[i])].coefficient_sigma;
     if (sigma > 0.0) squares(as_index(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
   }
@@ -154,7 +152,7 @@ NormalEquations normal_equations(const std::vector<Regressor>& regressors,
   equations.rows.resize(g.rows(), 1 + g.cols());
   equations.rows << marginalised.e, g;
   equations.ee = marginalised.e.squaredNorm();
-  equations.ge = linear::product(linear::transposed(g), marginalised.e);
+  equations.ge = linear::inner(g, marginalised.e);
   equations.gg = linear::gram(g);
   equations.prior_square = prior_squares(regressors, columns, equations.gg.diagonal());
   equations.columns = std::move(columns);
@@ -227,7 +225,7 @@ FreeEquations free_equations(const NormalEquations& equations,
   for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high})
     values->resize(m);
   result.gram.resize(m, m);
-  for (Index i = 0; i < m; ++i) {
+  for (const Index i : each_below(m)) {
     const Index at = free[as_size(i)];
     const Regressor& own = regressor(at);
     if (!(equations.gg(at, at) > 0.0)) {
@@ -255,14 +253,14 @@ FreeEquations free_equations(const NormalEquations& equations,
 /// Replaces a positive definite matrix by its inverse, by Gauss-Jordan elimination; returns its determinant.
 double invert(FewByFew& a) {
   double determinant = 1.0;
-  for (Index k = 0; k < a.rows(); ++k) {
+  for (const Index k : each_below(a.rows())) {
     const double pivot = std::exchange(a(k, k), 1.0);
     determinant *= pivot;
-    for (Index j = 0; j < a.cols(); ++j) a(k, j) /= pivot;
-    for (Index i = 0; i < a.rows(); ++i) {
+    for (const Index j : each_below(a.cols())) a(k, j) /= pivot;
+    for (const Index i : each_below(a.rows())) {
       if (i == k) continue;
       const double factor = std::exchange(a(i, k), 0.0);
-      for (Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(k, j);
+      for (const Index j : each_below(a.cols())) a(i, j) -= factor * a(k, j);
     }
   }
   return determinant;
@@ -278,13 +276,13 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
   const double determinant = invert(a);
   const FewValues ratio = a.lazyProduct(free.c);
   SetEvidence result;
-  result.quadratic = std::max(free.ee - free.c.dot(ratio), 0.0);
-  const NoiseDensity::Averages averages = noise.averages(result.quadratic);
+  const NoiseDensity::Averages averages =
+      noise.averages(std::max(free.ee - free.c.dot(ratio), 0.0));
   result.larger_noise = averages.larger_share;
   result.log_evidence =
       averages.log_density - 0.5 * log_det - 0.5 * std::log(determinant * prior.cwiseAbs2().prod());
   const double s = std::sqrt(averages.noise_square);
-  for (Index i = 0; i < m; ++i) {
+  for (const Index i : each_below(m)) {
     const double sigma = s * std::sqrt(a(i, i));
     // Farther beyond its range than noise explains, and not merely about null: the data need
     // another cause.
@@ -307,7 +305,7 @@ SetEvidence set_evidence(const NormalEquations& equations, const std::vector<Reg
                          std::span<const Index> set, const NoiseDensity& noise) {
   const FreeEquations free = free_equations(equations, regressors, set);
   // If the kept rows do not depend on a cause they give no evidence for it.
-  if (free.is_empty_column) return {kMinusInfinity, 0.0, 0.0};
+  if (free.is_empty_column) return {kMinusInfinity, 0.0};
   SetEvidence wide = evidence_at(free, equations.log_det, noise, kWideSignalToNoise);
   if (free.c.size() == 0) return wide;
   const SetEvidence usual = evidence_at(free, equations.log_det, noise, kUsualSignalToNoise);
@@ -323,9 +321,9 @@ EvidenceBounds::EvidenceBounds(const NormalEquations& equations,
       noise_(noise),
       outside_(equations.ge.size(), std::ssize(kStrengthPriors)) {
   const double s = std::sqrt(noise.noise_square(equations.ee));
-  for (Index i = 0; i < outside_.rows(); ++i) {
+  for (const Index i : each_below(outside_.rows())) {
     const double unit = s / std::sqrt(equations.prior_square(i));
-    for (Index k = 0; k < outside_.cols(); ++k) {
+    for (const Index k : each_below(outside_.cols())) {
       const double sigma = unit * kStrengthPriors[as_size(k)].sigma;
       outside_(i, k) = regressor(i).fixed
                            ? 0.0
@@ -344,7 +342,7 @@ ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
     of_data -= gg.col(i).array();
   }
   ArrayXd most = ArrayXd::Constant(of_data.size(), kMinusInfinity);
-  for (Index k = 0; k < outside_.cols(); ++k) {
+  for (const Index k : each_below(outside_.cols())) {
     const StrengthPrior& prior = kStrengthPriors[as_size(k)];
     const auto occam = [&](Index i, double square) {
       return outside_(i, k) -
@@ -361,7 +359,7 @@ ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
     for (const Index i : set) {
       if (regressor(i).fixed) continue;
       VectorXd column = gg.col(i);
-      for (Index j = 0; j < rank; ++j) column -= factor(i, j) * factor.col(j);
+      for (const Index j : each_below(rank)) column -= factor(i, j) * factor.col(j);
       const double own = square(i) + precision(i);
       log_weight += occam(i, own);
       factor.col(rank) = column / std::sqrt(own);
@@ -371,7 +369,7 @@ ArrayXd EvidenceBounds::with_each(std::span<const Index> set) const {
       square -= factor.col(rank).array().square();
       ++rank;
     }
-    for (Index i = 0; i < most.size(); ++i) {
+    for (const Index i : each_below(most.size())) {
       double q = quadratic - 2.0 * left(i) + square(i);
       double own = log_weight;
       if (!regressor(i).fixed) {

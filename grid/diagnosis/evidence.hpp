@@ -32,7 +32,7 @@
 
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -165,7 +165,6 @@ inline constexpr int kMostFreeRegressors = 8;
 /// A set of regressors fitted to the data.
 struct SetEvidence {
   double log_evidence = 0.0;  ///< natural logarithm, up to a constant of the data
-  double quadratic = 0.0;     ///< residual of e'e
   double larger_noise = 0.0;  ///< share of it from noise larger than stated
 };
 /// `set` holds positions in the normal equations. Minus infinity if a cause would have to leave its

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
@@ -112,8 +111,8 @@ MatrixXd distances(const std::vector<Alternative>& alternatives, const Rows& row
   const auto count = std::ssize(alternatives);
   MatrixXd d = MatrixXd::Zero(count, count);
   if (rows.empty()) return d;
-  for (Index k = 0; k < count; ++k) {
-    for (Index l = 0; l < k; ++l) {
+  for (const Index k : each_below(count)) {
+    for (const Index l : each_below(k)) {
       d(k, l) = d(l, k) = distance(alternatives[as_size(k)], alternatives[as_size(l)], rows);
     }
   }
@@ -144,7 +143,7 @@ std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   stable_sort(groups, descending(&Group::probability));
   if (groups.size() > kMostGroups) groups.resize(kMostGroups);
   std::vector<Alternative> result;
-  for (std::size_t number = 0; number < groups.size(); ++number) {
+  for (const auto number : each_index(groups)) {
     for (auto& [causes, one] : groups[number].members) {
       if (one.probability < kLeastProbability * groups[number].probability) continue;
       one.group = number;
@@ -192,7 +191,7 @@ double chance_of_all(const std::vector<Rival>& rivals) {
   constexpr int kSteps = 32;
   double chance = 0.0;
   double all = 0.0;
-  for (int step = 0; step < kSteps; ++step) {
+  for (const int step : each_below(kSteps)) {
     const double z = kWidest * ((2.0 * step + 1.0) / kSteps - 1.0);
     const double density = std::exp(-0.5 * z * z);
     all += density;
@@ -222,7 +221,7 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
   VectorXd probability = VectorXd::Zero(groups);
   MatrixXd shared = MatrixXd::Zero(groups, groups);
   ExpectedDiscrimination result;
-  for (Index k = 0; k < d.rows(); ++k) {
+  for (const Index k : each_below(d.rows())) {
     const Alternative& own = alternatives[as_size(k)];
     const Index of = as_index(own.group);
     probability(of) += own.probability;
@@ -231,7 +230,7 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
     VectorXd weight = VectorXd::Constant(groups, kMinusInfinity);
     VectorXd largest = weight;
     VectorXd nearest(groups);
-    for (Index l = 0; l < d.cols(); ++l) {
+    for (const Index l : each_below(d.cols())) {
       const Alternative& other = alternatives[as_size(l)];
       const Index group = as_index(other.group);
       shared(of, group) += own.probability * other.probability * std::exp(-d(k, l) / 8.0);
@@ -241,13 +240,13 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
       weight(group) = log_sum(weight(group), term);
     }
     std::vector<Rival> rivals;
-    for (Index group = 0; group < groups; ++group) {
+    for (const Index group : each_below(groups)) {
       if (group != of) rivals.push_back({weight(of) - weight(group), nearest(group)});
     }
     result.named_alone += own.probability * (rivals.empty() ? 1.0 : chance_of_all(rivals));
   }
-  for (Index one = 0; one < groups; ++one) {
-    for (Index other = 0; other < one; ++other)
+  for (const Index one : each_below(groups)) {
+    for (const Index other : each_below(one))
       result.confusion += shared(one, other) / std::sqrt(probability(one) * probability(other));
   }
   return result;

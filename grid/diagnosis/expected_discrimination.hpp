@@ -27,12 +27,11 @@
 /// grid/diagnosis.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -8,11 +8,10 @@
 #include <numbers>
 #include <vector>
 
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
-#include "grid/eigen.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -82,7 +81,7 @@ class PlaceOfCause {
     constexpr double kStep = 1e-3;
     const RegressorSystem& system = a_.system;
     MatrixXd slope = MatrixXd::Zero(system.by_setting.rows(), system.setting.size());
-    for (Index column = 0; column < a_.session.setting_columns(); ++column) {
+    for (const Index column : each_below(a_.session.setting_columns())) {
       const double step = kStep * system.sigma(column);
       const auto at = [&](double change) -> std::optional<VectorXd> {
         VectorXd settings = system.setting;
@@ -222,8 +221,7 @@ Cause describe(const Analysis& a, std::size_t index) {
       cause.same_as.push_back({member, std::move(found)});
     }
   }
-  cause.order_assumed =
-      a.options.order_assumed && cause.cause.effect->needs == model::effects::DataNeed::order;
+  cause.order_assumed = a.options.order_assumed && cause.cause.effect->needs == DataNeed::order;
   return cause;
 }
 
@@ -268,7 +266,6 @@ double probability_of(const Analysis& a, const CauseId& cause) {
 }
 
 std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testable) {
-  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
     if (contains(a.decision.listed, a.decision.class_of(cause))) continue;
@@ -305,7 +302,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
 std::vector<CalibratedSetting> settings_found(const Analysis& a) {
   const ObservationSet& session = a.session;
   std::vector<CalibratedSetting> result;
-  for (std::size_t k = 0; k < session.settings.size(); ++k) {
+  for (const auto k : each_index(session.settings)) {
     const auto at = as_index(k);
     if (!session.knows(k)) continue;
     CalibratedSetting one;
@@ -368,7 +365,7 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
   // A miscounted link is an outlier with a name.
   reject_slips(a, outliers);
   std::vector<Outlier> result;
-  for (std::size_t u = 0; u < outliers.size(); ++u) {
+  for (const auto u : each_index(outliers)) {
     if (outliers[u]) result.push_back(outlier_of(a, u));
   }
   sort(result, ascending([](const Outlier& own) { return std::pair(own.of, own.index); }));

@@ -7,9 +7,9 @@
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/ties.hpp"
-#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -47,7 +47,7 @@ class Scout {
     Scouted result{
         discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
     std::vector<std::pair<double, int>> all;
-    for (std::size_t k = 0; k < plain_.columns.size(); ++k) {
+    for (const auto k : each_index(plain_.columns)) {
       all.emplace_back(prior_[k] + share + single(d, as_index(k)), plain_.columns[k]);
     }
     keep_best(all, kSinglesGivenDiscrepancy);
@@ -129,7 +129,7 @@ RegressorSet first_of_each_cause(const RegressorSystem& system, const ScoredRegr
 RegressorSet columns_to_scout(const RegressorSystem& system, const NormalEquations& plain,
                               const std::vector<RegressorSet>& best_models) {
   ScoredRegressors scored;
-  for (std::size_t k = 0; k < plain.columns.size(); ++k) {
+  for (const auto k : each_index(plain.columns)) {
     const auto at = as_index(k);
     const double gain =
         score_alone(system.regressor(plain.columns[k]), plain.ge(at), plain.gg(at, at));
@@ -167,7 +167,7 @@ std::vector<double> search_all_by_beam(const RegressorSystem& system, Discrepanc
   for (const std::size_t kernel : kernels) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernel, plain);
     for (std::size_t s = limits.strength_step - 1; s < strengths; s += limits.strength_step) {
-      const auto discrepancy = static_cast<int>(kernel * strengths + s);
+      const auto discrepancy = as_int(kernel * strengths + s);
       search_by_beam(system, given.equations(family.strength_of(discrepancy), plain.columns),
                      discrepancy, limits, collector);
     }
@@ -191,7 +191,7 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
       normal_equations(system, marginalised, columns_to_scout(system, plain, best_models));
   const Scout first_look(system, few, best_models, collector);
   const DiscrepancyFamily& family = *system.discrepancies;
-  const auto strengths = static_cast<int>(family.strengths.size());
+  const auto strengths = as_int(family.strengths.size());
   std::vector<Scouted> scouted(kernels.size() * family.strengths.size());
   std::vector<double> of_kernel(kernels.size(), kMinusInfinity);
   basis.relate(few);
@@ -199,7 +199,7 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
     const DiscrepancyBasis::GivenKernel given = basis.given(kernels[k], few);
     for (int strength = 0; strength < strengths; ++strength) {
       Scouted& own = scouted[k * family.strengths.size() + as_size(strength)];
-      own = first_look.look_at(given, static_cast<int>(kernels[k]) * strengths + strength);
+      own = first_look.look_at(given, as_int(kernels[k]) * strengths + strength);
       of_kernel[k] = std::max(of_kernel[k], own.weight);
     }
   });

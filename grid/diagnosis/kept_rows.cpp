@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/kept_rows.hpp"
 
-#include "grid/diagnosis/regressor_system.hpp"
-
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -30,7 +28,7 @@ void reject(const OutlierGroup& group, Rejected& unit) {
 
 std::vector<Rejected> rejected_units(const RegressorSystem& system, const Flags& rejected) {
   std::vector<Rejected> units(system.units.size());
-  for (std::size_t k = 0; k < system.groups.size(); ++k) {
+  for (const auto k : each_index(system.groups)) {
     if (rejected[k]) reject(system.groups[k], units[system.unit_of(system.groups[k])]);
   }
   return units;
@@ -40,7 +38,7 @@ std::vector<Rejected> rejected_units(const RegressorSystem& system, const Flags&
 
 KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) : all_(system.e.size()) {
   const std::vector<Rejected> of_unit = rejected_units(system, rejected);
-  for (Index row = 0; row < system.e.size(); ++row) {
+  for (const Index row : each_below(system.e.size())) {
     const int number = system.unit_of_row[index(row)];
     if (number < 0) {
       rows_.push_back(row);
@@ -66,7 +64,7 @@ Rows KeptRows::positions(const Indices& units) const {
   Rows result;
   for (const Unit& unit : units_) {
     if (!contains(units, unit.unit)) continue;
-    for (Index k = 0; k < unit.rows; ++k) result.push_back(unit.at + k);
+    for (const Index k : each_below(unit.rows)) result.push_back(unit.at + k);
   }
   return result;
 }

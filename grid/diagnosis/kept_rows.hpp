@@ -16,12 +16,10 @@
 #include <optional>
 #include <vector>
 
-#include "grid/diagnosis/regressor_columns.hpp"
-#include "grid/eigen.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-struct RegressorSystem;
 
 class KeptRows {
  public:

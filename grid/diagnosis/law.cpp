@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -24,15 +25,13 @@ constexpr DescribedShape kShapes[] = {{"linear", "", 1},           {"square", "p
                                       {"exponential", "scale", 2}, {"wave", "period", 3},
                                       {"harmonics", "period", 5}};
 
-const DescribedShape& described_shape(LawShape shape) {
-  return kShapes[static_cast<std::size_t>(shape)];
-}
+const DescribedShape& described_shape(LawShape shape) { return kShapes[as_size(shape)]; }
 
 }  // namespace
 
-std::optional<model::Belt> belt_of(Enters enters) {
+std::optional<Belt> belt_of(Enters enters) {
   if (enters < Enters::tl) return std::nullopt;
-  return static_cast<model::Belt>(static_cast<int>(enters) - static_cast<int>(Enters::tl));
+  return static_cast<Belt>(as_int(enters) - as_int(Enters::tl));
 }
 
 std::string_view name(LawShape shape) { return described_shape(shape).name; }

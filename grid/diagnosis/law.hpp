@@ -36,7 +36,7 @@ enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, 
 std::string_view name(Enters enters);
 
 /// For a law that enters a belt; null for all others.
-std::optional<model::Belt> belt_of(Enters enters);
+std::optional<Belt> belt_of(Enters enters);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
 std::string_view name(LawShape shape);

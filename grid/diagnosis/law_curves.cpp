@@ -30,7 +30,7 @@ bool may_repeat(const LawTerm& term) {
   if (unit_of(term.of) != "mm") return false;
   if (const auto belt = belt_of(term.of)) return belt_of(term.enters) == belt;
   const auto chain = chain_of(term.of);
-  return chain && term.enters == (*chain == model::Side::left ? Enters::left : Enters::right);
+  return chain && term.enters == (*chain == Side::left ? Enters::left : Enters::right);
 }
 
 /// The shortest period: shorter ones are implausible, or no marks show them.
@@ -114,14 +114,14 @@ class CurveList {
 
   StepPlaces kink_places() const {
     std::vector<double> grid;
-    for (int k = 0; k < kKinkPlaces; ++k)
+    for (const int k : each_below(kKinkPlaces))
       grid.push_back(start_.from + (k + 0.5) / kKinkPlaces * start_.span());
     return evenly(std::move(grid));
   }
 
   StepPlaces scales() const {
     std::vector<double> grid;
-    for (int k = 0; k < kScales; ++k)
+    for (const int k : each_below(kScales))
       grid.push_back(kShortestScale * std::pow(kScaleFactor, k) * start_.span());
     return evenly(std::move(grid));
   }
@@ -156,7 +156,7 @@ class CurveList {
     }
     for (double waves = kFirst; waves < 2.0 * most; waves += kStep) {
       std::complex<double> sum = 0.0;
-      for (std::size_t k = 0; k < phases.size(); ++k) {
+      for (const auto k : each_index(phases)) {
         sum += phases[k];
         phases[k] *= steps[k];
       }
@@ -198,7 +198,7 @@ double basis(const LawCurve& curve, double at, Index column, double v) {
 std::vector<LawEntrance> entrances_of_chains(Coordinate of) {
   using enum Enters;
   if (const auto chain = chain_of(of)) {
-    const bool is_left = *chain == model::Side::left;
+    const bool is_left = *chain == Side::left;
     return {{left, is_left ? 0.55 : 0.15}, {right, is_left ? 0.15 : 0.55}, {x, 0.15}, {y, 0.15}};
   }
   switch (of) {
@@ -250,7 +250,7 @@ StepPlaces step_places(const std::vector<double>& values, double from, double to
   StepPlaces places;
   std::ptrdiff_t last = -1;
   int first = 0;  // of those between the same two values
-  for (int k = 0; k < kStepPlaces; ++k) {
+  for (const int k : each_below(kStepPlaces)) {
     const auto below = std::lower_bound(values.begin(), values.end(), place(k)) - values.begin();
     if (below != last) {
       places.at.emplace_back();
@@ -304,7 +304,7 @@ namespace {
 RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
   const Index each = columns_of(curve.shape);
   RowVectorXd values(each * std::ssize(at));
-  for (Index k = 0; k < values.size(); ++k)
+  for (const Index k : each_below(values.size()))
     values(k) = basis(curve, at[as_size(k / each)], k % each, v);
   return values;
 }
@@ -315,7 +315,7 @@ MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
                      const std::vector<double>& at) {
   const Index count = columns_of(curve.shape) * std::ssize(at);
   MatrixXd columns = MatrixXd::Zero(system.e.size(), count);
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
+  for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     for (const LawRows& own : law_rows(system, u, curve))
       columns.middleRows(unit.first_row, unit.rows) += own.rows * values_at(curve, at, own.v);
@@ -344,7 +344,7 @@ std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,
     const SystemPlace& place = system.places[own.place];
     if (const auto belt = belt_of(term.enters)) {
       all.push_back({value_at(place, term.of, term.direction_rad),
-                     system.units[unit].by_reading.col(static_cast<Index>(*belt))});
+                     system.units[unit].by_reading.col(as_index(*belt))});
       continue;
     }
     for (const auto& [v, chains_mm] : chains_at(place, term))

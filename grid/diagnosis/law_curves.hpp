@@ -23,7 +23,7 @@
 
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -113,7 +113,7 @@ class LawSearch {
   std::vector<LawPoint> look_at_all() {
     std::vector<LawPoint> all;
     for (const LawCurve& curve : *curves_) {
-      for (std::size_t k = 0; k < curve.grid.size(); ++k)
+      for (const auto k : each_index(curve.grid))
         all.push_back({&curve, curve.grid[k], curve.mass[k]});
     }
     weigh(all);
@@ -132,7 +132,7 @@ class LawSearch {
     }
     constexpr std::size_t kMostPoints = 240;
     VectorXd of_chosen(std::ssize(chosen));
-    for (std::size_t k = 0; k < chosen.size(); ++k)
+    for (const auto k : each_index(chosen))
       of_chosen(as_index(k)) = chosen[k].log_prior() + chosen[k].log_weight;
     return leading(chosen, of_chosen, kMostPoints, kLawsWithin);
   }
@@ -157,7 +157,7 @@ class LawSearch {
       sort(points, ascending(&LawPoint::at));
     }
     double sum = 0.0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
+    for (const auto k : each_index(points)) {
       LawPoint& own = points[k];
       const double before = k > 0 ? own.at - points[k - 1].at : 0.0;
       const double behind = k + 1 < points.size() ? points[k + 1].at - own.at : 0.0;
@@ -176,8 +176,7 @@ class LawSearch {
       if (!known && best.size() < 3) best.push_back(own);
     }
     MatrixXd weights = system_.log_weights(contexts_, system_.take(best));
-    for (std::size_t k = 0; k < best.size(); ++k)
-      weights.col(as_index(k)).array() += best[k].log_prior();
+    for (const auto k : each_index(best)) weights.col(as_index(k)).array() += best[k].log_prior();
     std::vector<LawContext> contexts =
         leading(contexts_, weights.rowwise().maxCoeff(), kMostContexts, kContextsWithin);
     append_all(contexts, without_);
@@ -195,15 +194,15 @@ class LawSearch {
     const std::vector<LawContext> contexts = contexts_with(chosen);
     const std::vector<ColumnSet> columns = system_.take(chosen);
     const MatrixXd weights = system_.log_weights(contexts, columns);
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
+    for (const auto k : each_index(chosen)) {
       const LawPoint& own = chosen[k];
       laws.push_back({number_, {curves_, own.curve}, own.at, own.mass});
       laws.back().log_weight = log_sum_of(weights.col(as_index(k))) + own.log_prior();
       if (!without_.empty()) laws.back().without = besides(without_.front());
     }
-    for (Index row = 0; row < weights.rows(); ++row) {
+    for (const Index row : each_below(weights.rows())) {
       const LawContext& context = contexts[as_size(row)];
-      for (std::size_t k = 0; k < chosen.size(); ++k) {
+      for (const auto k : each_index(chosen)) {
         Index best = 0;
         weights.col(as_index(k)).maxCoeff(&best);
         if (best != row) continue;

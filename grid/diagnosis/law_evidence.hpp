@@ -18,7 +18,7 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

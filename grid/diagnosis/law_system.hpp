@@ -9,13 +9,12 @@
 
 #include <compare>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/law_evidence.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -50,7 +49,7 @@ class LawSystem {
     for (const RegressorSet& set : sets) {
       RegressorSet& own = sets_.emplace_back();
       for (const int k : set) {
-        own.push_back(static_cast<int>(all.size()));
+        own.push_back(as_int(all.size()));
         all.push_back(k);
         own_.regressors.push_back(a.system.regressor(k));
       }
@@ -90,7 +89,7 @@ class LawSystem {
   std::vector<LawContext> contexts() const {
     std::vector<LawContext> all;
     for (int discrepancy = -1; discrepancy < family().count(); ++discrepancy) {
-      for (std::size_t set = 0; set < sets_.size(); ++set) all.push_back({discrepancy, set});
+      for (const auto set : each_index(sets_)) all.push_back({discrepancy, set});
     }
     return all;
   }
@@ -100,14 +99,14 @@ class LawSystem {
   MatrixXd log_weights(const std::vector<LawContext>& contexts,
                        const std::vector<ColumnSet>& laws) {
     MatrixXd result = MatrixXd::Constant(std::ssize(contexts), std::ssize(laws), kMinusInfinity);
-    for (Index row = 0; row < result.rows(); ++row) {
+    for (const Index row : each_below(result.rows())) {
       const LawContext& context = contexts[as_size(row)];
       const NormalEquations& equations = equations_of(context.discrepancy);
       const bool given = context.discrepancy >= 0;
       const double prior = log_prior(own_, sets_[context.set], given) +
                            (given ? family().log_share_of(context.discrepancy) : 0.0) +
                            marginalised_.log_outliers;
-      for (Index k = 0; k < result.cols(); ++k) {
+      for (const Index k : each_below(result.cols())) {
         const ColumnSet& law = laws[as_size(k)];
         if (!shows(law)) continue;
         result(row, k) =

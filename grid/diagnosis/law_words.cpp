@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "grid/containers.hpp"
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -83,7 +84,7 @@ std::string variable_in_words(const Law& law) {
       "the top right belt's angle against the horizontal",
       "the bottom left belt's angle against the horizontal",
       "the bottom right belt's angle against the horizontal"};  // by Coordinate
-  return fmt::format(fmt::runtime(kVariables[static_cast<std::size_t>(law.of)]),
+  return fmt::format(fmt::runtime(kVariables[as_size(law.of)]),
                      fmt::arg("anchor", belt_of(law.enters) ? " from the bottom left anchor" : ""),
                      fmt::arg("direction", law.direction_deg));
 }
@@ -103,8 +104,7 @@ std::string form_in_words(const Law& law) {
                                          "an exponential",
                                          "a wave",
                                          "a wave with its second harmonic"};
-  return fmt::format("{} over {}", kForms[static_cast<std::size_t>(law.shape)],
-                     variable_in_words(law));
+  return fmt::format("{} over {}", kForms[as_size(law.shape)], variable_in_words(law));
 }
 
 std::string in_words(const Law& law) {
@@ -122,7 +122,7 @@ std::string in_words(const Law& law) {
   const auto words_of = [&](std::size_t k, double factor) {
     return k < law.parameters.size() ? number_words(law.parameters[k], factor) : "";
   };
-  return fmt::format(fmt::runtime(kSentences[static_cast<std::size_t>(law.shape)]),
+  return fmt::format(fmt::runtime(kSentences[as_size(law.shape)]),
                      fmt::arg("size", words_of(0, 1.0)), fmt::arg("second", words_of(3, 1.0)),
                      fmt::arg("slope", words_of(0, unit.slope_factor / (law.to - law.from))),
                      fmt::arg("per", unit.slope_words), fmt::arg("at", words_of(1, unit.factor)),
@@ -130,7 +130,7 @@ std::string in_words(const Law& law) {
                      fmt::arg("side", law.towards > 0 ? "beyond" : "below"),
                      fmt::arg("end", law.towards > 0 ? "largest" : "least"),
                      fmt::arg("variable", variable_in_words(law)),
-                     fmt::arg("entrance", kEntrances[static_cast<std::size_t>(law.enters)]));
+                     fmt::arg("entrance", kEntrances[as_size(law.enters)]));
 }
 
 std::string given_law_words(const Diagnosis& d) {
@@ -158,7 +158,7 @@ std::string given_law_words(const Diagnosis& d) {
   return text;
 }
 
-std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine) {
+std::vector<std::string> hints_of(const Law& law, const BeltMachine& machine) {
   const double turn = machine.belt_turn_mm;
   // Tolerance of a belt's pitch: one per cent.
   if (!is_wave_of_length(law) || !belt_of(law.of) || !is_near(law, turn, 0.01 * turn)) return {};
@@ -168,7 +168,7 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
       turn)};
 }
 
-std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
+std::vector<std::string> hints_of(const Law& law, const Machine& machine) {
   std::vector<std::string> hints;
   const double pitch = machine.sprocket.pitch_mm;
   const double turn = machine.sprocket.teeth * pitch;
@@ -192,15 +192,202 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
   if (law.of == Coordinate::x && (law.shape == LawShape::step || law.shape == LawShape::kink)) {
     if (is_near(law, 0.0, kNearMm))
       hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       if (is_near(law, machine.motors[side].x_mm, kNearMm))
-        hints.push_back(fmt::format("Its place is near the {} motor.",
-                                    side == model::Side::left ? "left" : "right"));
+        hints.push_back(
+            fmt::format("Its place is near the {} motor.", side == Side::left ? "left" : "right"));
     }
   }
   if (unit_of(law.of) == "n")
     hints.emplace_back("It follows a chain's tension: something yields under load.");
   return hints;
+}
+
+namespace {
+
+using model::effects::ActsOn;
+using model::effects::Declaration;
+using model::effects::DeclaredParameter;
+
+std::string variable_of(const Law& law, const Bed& bed) {
+  constexpr std::string_view kVariables[] = {"x",
+                                             "y",
+                                             "({cos:.6f} * x + {sin:.6f} * y)",
+                                             "min({right} - abs(x), {top} - abs(y))",
+                                             "L0",
+                                             "L0",
+                                             "phi",
+                                             "phi",
+                                             "T",
+                                             "T",
+                                             "n"};  // by Coordinate, of chains
+  const double direction = law.direction_deg * std::numbers::pi / 180.0;
+  return fmt::format(fmt::runtime(kVariables[as_size(law.of)]),
+                     fmt::arg("cos", std::cos(direction)), fmt::arg("sin", std::sin(direction)),
+                     fmt::arg("right", 0.5 * bed.width_mm), fmt::arg("top", 0.5 * bed.height_mm));
+}
+
+/// The chain whose value is the law's variable.
+bool is_of_other_chain(const Law& law) {
+  const auto chain = chain_of(law.of);
+  return chain && law.enters != (*chain == Side::left ? Enters::left : Enters::right);
+}
+
+/// A number with the variable's unit.
+std::string with_unit(const Law& law, double value) {
+  const std::string_view unit = unit_of(law.of);
+  if (unit == "mm") return fmt::format("({:.6g} * mm)", value);
+  if (unit == "n") return fmt::format("({:.6g} * N)", value);
+  return fmt::format("{:.6g}", value);
+}
+
+DeclaredParameter size_of(const Law& law) {
+  const double value = law.parameters.front().value;
+  // Range for another session: five times as large, or of the other sign.
+  const double bound = std::max(1.0, 5.0 * std::abs(value));
+  return {.name = "size_mm",
+          .symbol = "a",
+          .meaning = "how large it is",
+          .null = 0.0,
+          .nominal = value,
+          // The phase of a wave has its sign.
+          .lower = is_periodic(law.shape) ? 0.0 : -bound,
+          .upper = bound,
+          .prior_sigma = std::max(std::abs(value), 0.05)};
+}
+
+DeclaredParameter place_of(const Law& law) {
+  if (is_periodic(law.shape)) {
+    return {.name = "phase_rad",
+            .symbol = "p",
+            .meaning = "phase of the wave in the middle of its range",
+            .role = ParameterRole::place,
+            .nominal = law.parameters[2].value,
+            .lower = -6.3,
+            .upper = 6.3,
+            .prior_sigma = std::numbers::pi};
+  }
+  return {.name = law.parameters[1].parameter,
+          .symbol = "p",
+          .meaning = "where it sets in",
+          .role = ParameterRole::place,
+          .nominal = std::clamp(law.parameters[1].value, law.from, law.to),
+          .lower = law.from,
+          .upper = law.to,
+          .prior_sigma = std::max(law.parameters[1].sigma, 0.01 * (law.to - law.from))};
+}
+
+/// The parameters size_mm and, if there is one, the place.
+std::string formula_of(const Law& law, const Bed& bed) {
+  const std::string v = variable_of(law, bed);
+  const double span = law.to - law.from;
+  const std::string over_span = with_unit(law, span);
+  const std::string place = fmt::format("place_{}", unit_of(law.of));
+  switch (law.shape) {
+    case LawShape::linear:
+      return fmt::format("size_mm * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), over_span);
+    case LawShape::square:
+      return fmt::format("size_mm * (({} - {:.6g}) / {})^2", v, law.parameters[1].value,
+                         with_unit(law, 0.5 * span));
+    case LawShape::step:
+      return fmt::format("size_mm * step({} - {})", v, place);
+    case LawShape::kink:
+      return law.towards > 0 ? fmt::format("size_mm * ramp({} - {}) / {}", v, place, over_span)
+                             : fmt::format("size_mm * ramp({} - {}) / {}", place, v, over_span);
+    case LawShape::exponential: {
+      const std::string scale = with_unit(law, law.parameters[1].value);
+      return law.towards > 0 ? fmt::format("size_mm * exp(({} - {:.6g}) / {})", v, law.to, scale)
+                             : fmt::format("size_mm * exp(({:.6g} - {}) / {})", law.from, v, scale);
+    }
+    case LawShape::wave:
+    case LawShape::harmonics:
+      break;
+  }
+  const std::string turn = fmt::format("2 * pi * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to),
+                                       with_unit(law, law.parameters[1].value));
+  if (law.shape == LawShape::wave) return fmt::format("size_mm * sin({} + phase_rad)", turn);
+  // The shape of one period is kept: the harmonic scales and shifts with the wave.
+  const double ratio = law.parameters[3].value / law.parameters[0].value;
+  const double behind = std::remainder(law.parameters[4].value - 2.0 * law.parameters[2].value,
+                                       2.0 * std::numbers::pi);
+  return fmt::format(
+      "size_mm * (sin({} + phase_rad) + {:.6g} * sin(2 * ({} + phase_rad) + {:.6f}))", turn, ratio,
+      turn, behind);
+}
+
+/// A factor: what a millimetre of the law adds to either chain; empty if it enters the chain
+/// directly.
+std::string entrance_of(const Law& law) {
+  switch (law.enters) {
+    case Enters::x:
+      return "side * cos(phi) * ";
+    case Enters::y:
+      return "-sin(phi) * ";
+    case Enters::along: {
+      const double direction = law.direction_deg * std::numbers::pi / 180.0;
+      return fmt::format("({:.6f} * side * cos(phi) - {:.6f} * sin(phi)) * ", std::cos(direction),
+                         std::sin(direction));
+    }
+    default:
+      return "";
+  }
+}
+
+std::string refusal_of(const Law& law) {
+  if (belt_of(law.enters)) return "a declared cause acts on chains, but this law acts on a belt";
+  if (is_of_other_chain(law)) {
+    const bool moves = law.enters == Enters::x || law.enters == Enters::y;
+    return fmt::format("a chain's formula uses only that chain, but this law {}",
+                       moves ? "moves the tool" : "acts elsewhere");
+  }
+  if (law.enters == Enters::outwards) {
+    return "a law that moves the tool outwards moves it along x by one distance and along y by "
+           "another, which no formula of a chain can express";
+  }
+  return "";
+}
+
+}  // namespace
+
+tl::expected<Declaration, std::string> declaration_of(const Law& law, const Bed& bed) {
+  if (const std::string why = refusal_of(law); !why.empty()) {
+    return tl::unexpected(
+        fmt::format("The law found ({}) cannot be written to a file: {}.", in_words(law), why));
+  }
+  Declaration own;
+  own.id = fmt::format("{}_of_{}", name(law.shape), name(law.of));
+  own.acts_on = law.of == Coordinate::visit ? ActsOn::reading : ActsOn::chain;
+  own.sides = {law.enters == Enters::left    ? EffectSide::left
+               : law.enters == Enters::right ? EffectSide::right
+                                             : EffectSide::both};
+  own.parameters = {size_of(law)};
+  const bool has_place =
+      law.shape == LawShape::step || law.shape == LawShape::kink || is_periodic(law.shape);
+  if (has_place) own.parameters.push_back(place_of(law));
+  own.adds_mm = entrance_of(law) + formula_of(law, bed);
+  own.cause = fmt::format("a cause without a name, {}", form_in_words(law));
+  own.signature = in_words(law);
+  own.remedy = "find what has this place or period, and give it a name here";
+  own.not_modelled = "deviations from this form";
+  own.typical = fmt::format("{:.2g} mm", std::abs(law.parameters.front().value));
+  own.source = fmt::format("a diagnosis: probability {}", percent(law.probability));
+  return own;
+}
+
+tl::expected<Declaration, std::string> declaration_of(const std::vector<Law>& laws,
+                                                      const Bed& bed) {
+  if (laws.empty()) {
+    return tl::unexpected(
+        std::string("No law is written: for these readings no law is more likely than none."));
+  }
+  const Law& first = laws.front();
+  if (first.probability < kLawClaimed) {
+    return tl::unexpected(
+        fmt::format("No law is written: the likeliest, {}, has a probability of {}, and {} is "
+                    "needed. Measure more points.",
+                    in_words(first), percent(first.probability), percent(kLawClaimed)));
+  }
+  return declaration_of(first, bed);
 }
 
 }  // namespace chaintrue::grid::diagnosis

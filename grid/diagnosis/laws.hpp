@@ -8,9 +8,11 @@
 /// those of the posterior over its curve.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/law_evidence.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -30,5 +32,28 @@ const Law* claimed_law(const Diagnosis& diagnosis);
 /// Probability that some law acts, from evidence in one or more of the comparison's systems, each with the same
 /// laws.
 double probability_of_any(const std::vector<LawEvidence>& evidence);
+
+// The causes that readings name once a law is known: the law, as estimated in its best
+// context, is subtracted and the causes are compared again (analysis.hpp).
+//
+// To a comparison that does not include it, an unlisted law is noise: it hides causes that act
+// alongside it and sometimes looks like one. The estimate is treated as exact: of a law of
+// strength 12 a twelfth is left in the readings, less than their noise at any one of them.
+
+/// The likeliest law's contribution to the readings, whitened; empty if none is claimed, or if
+/// removing it cannot change a name.
+std::optional<VectorXd> rows_of_claimed_law(const Analysis& analysis, const LawsFound& laws);
+
+/// Causes that only one of two comparisons names: first those named given the law, the likeliest
+/// first.
+std::vector<CauseGivenLaw> changed_causes(const Analysis& without_law, const Analysis& given_law);
+
+/// Withdraws the names that are less likely than not given the law. Probabilities become those
+/// given the law.
+void take_names_back(const Analysis& given_law, Analysis& analysis);
+
+/// The changes of names once a claimed law is known; causes that are no longer named are withdrawn.
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, const AnalysisRules& rules,
+                                          Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -69,7 +69,6 @@ double ModelCollector::consider(const ColumnSet& set, int discrepancy,
   model.marginalised = number_;
   model.log_weight = evidence.log_evidence + log_prior_of(model.regressors, discrepancy);
   model.larger_noise = evidence.larger_noise;
-  model.quadratic = evidence.quadratic;
   best_ = std::max(best_, model.log_weight);
   const double weight = model.log_weight;
   if (keeps(set.size(), discrepancy, weight)) models_.push_back(std::move(model));
@@ -145,7 +144,7 @@ void search_by_beam(const RegressorSystem& system, const NormalEquations& equati
     for (const WeighedSet& parent : parents) {
       const ArrayXd most = bounds.with_each(parent.set);
       std::map<std::pair<bool, bool>, double> prior;  // of one more, by its kind
-      for (Index i = 0; i < equations.ge.size(); ++i) {
+      for (const Index i : each_below(equations.ge.size())) {
         const Regressor& own = sets.regressor(i);
         const auto [known, is_new] = prior.try_emplace({own.expected, own.slip});
         if (is_new) {

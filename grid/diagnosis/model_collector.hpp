@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -8,8 +8,6 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
-#include "grid/eigen.hpp"
-#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -96,7 +94,7 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
   NormalEquations equations;
   equations.ee = ee;
   const std::array<Index, 1> first = {0};
-  for (std::size_t k = 0; k < regressors.size(); ++k) {
+  for (const auto k : each_index(regressors)) {
     const Regressor& own = regressors[k];
     if (scores.empty() || scores.back().cause != own.cause) {
       scores.push_back({own.cause});
@@ -104,7 +102,7 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
     }
     const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
-    equations.columns = {static_cast<int>(k)};
+    equations.columns = {as_int(k)};
     equations.ge = c.segment<1>(at);
     equations.gg = equations.prior_square = square.segment<1>(at);
     const double factor =
@@ -112,7 +110,7 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
     scores.back().log_factor = log_sum(scores.back().log_factor, factor);
     if (factor > best) {
       best = factor;
-      scores.back().best_regressor = static_cast<int>(k);
+      scores.back().best_regressor = as_int(k);
     }
   }
   return scores;
@@ -134,7 +132,7 @@ std::vector<Flags> sets_without_links(const RegressorSystem& system, const Flags
   const MarginalisedSystem& marginalised = comparison.best_system();
   const Estimate fitted = estimate(system, marginalised, comparison.best().regressors, -1);
   std::vector<Flags> result;
-  for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
+  for (const auto i : each_index(marginalised.outliers)) {
     // A rejected direction is not a whole reading that is off by links.
     if (!marginalised.outliers[i] || excluded[i] || system.groups[i].direction) continue;
     const SystemUnit& unit = system.units[i];

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -26,7 +26,6 @@ struct CandidateModel {
   /// Natural logarithm of prior times evidence, or of a probability averaged over parts (bed_parts.hpp).
   double log_weight = 0.0;
   double larger_noise = 0.0;  ///< share of it from noise larger than stated
-  double quadratic = 0.0;     ///< residual of e'e
 };
 
 struct ModelComparison {

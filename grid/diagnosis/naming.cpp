@@ -2,12 +2,10 @@
 #include "grid/diagnosis/naming.hpp"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/failed.hpp"
@@ -33,7 +31,7 @@ std::optional<std::string> suspected_tape_zero(const MeasuredHoles& set) {
 /// Slips of a whole file, which resemble no effect, in data that no file reader has checked.
 std::optional<std::string> suspected_slip(const Measured& measured) {
   for (std::size_t k = 1; k < measured.files().size(); ++k) {
-    for (std::size_t before = 0; before < k; ++before) {
+    for (const std::size_t before : each_below(k)) {
       const MeasuredFile& first = measured.files()[before];
       const MeasuredFile& other = measured.files()[k];
       if (!same_readings(first, other)) continue;
@@ -63,9 +61,9 @@ tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& o
                                                      const Measured& measured,
                                                      DiagnosisOptions options) {
   options.order_assumed = true;
-  options.orders_tried = static_cast<int>(line_by_line_orders().size());
+  options.orders_tried = as_int(line_by_line_orders().size());
   auto session = diagnosis::observations_of(visited_in(measured, order.order).value());
-  if (!session) return tl::unexpected(session.error());
+  if (!session) return failed(session);
   return analyse(*std::move(session), options);
 }
 
@@ -85,7 +83,7 @@ tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured
       return AnalysedInOrder{*std::move(ordered), order};
   }
   auto analysis = analyse(std::move(session), options);
-  if (!analysis) return tl::unexpected(analysis.error());
+  if (!analysis) return failed(analysis);
   if (!has_several && (order = find_visiting_order(measured, *analysis))) {
     if (auto ordered = analysed_in(*order, measured, options))
       return AnalysedInOrder{*std::move(ordered), order};
@@ -98,12 +96,12 @@ tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured
 tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
                                                    const DiagnosisOptions& options, NamingFor use) {
   auto session = observations_of(measured);
-  if (!session) return tl::unexpected(session.error());
+  if (!session) return failed(session);
   if (const auto slip = suspected_slip(measured))
     return failed(DiagnosisFailure::Reason::contradictory_settings, *slip);
   tell(options.progress, kComparing);
   auto analysed = analysed_in_order(measured, *std::move(session), options);
-  if (!analysed) return tl::unexpected(analysed.error());
+  if (!analysed) return failed(analysed);
   Naming naming{std::move(analysed->analysis), analysed->order, {}, {}, {}, {}};
   Analysis& a = naming.analysis;
   if (use == NamingFor::causes && a.decision.listed.empty()) return naming;

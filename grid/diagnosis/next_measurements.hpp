@@ -6,11 +6,34 @@
 
 #include <vector>
 
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/next_candidates.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+// All possible next measurements, as a session. Private to grid/diagnosis.
+
+/// The accuracy of a reading of 100 links: 0.1 mm.
+inline constexpr double kLinkPitchSigmaMm = 0.001;
+
+/// Some rows of the session of candidates.
+struct Candidate {
+  NextMeasurement measurement;
+  Rows rows;
+  int times = 1;  ///< it may be chosen
+};
+
+/// The session's unknowns are those of the measured session, in its order, followed by those of
+/// holes that are not cut yet.
+struct NextCandidates {
+  ObservationSet session;
+  std::vector<Candidate> all;
+};
+
+/// Points over the bed and repeated visits if chains were read, distances and holes if a tape was
+/// used, and readings of the machine.
+NextCandidates next_candidates(const Analysis& analysis);
 
 inline constexpr std::size_t kMostNextMeasurements = 8;
 /// Nothing is proposed from this probability on.

@@ -23,7 +23,7 @@ NullDistribution draw_null(const SingleScore& score, const MarginalisedSystem& m
     MatrixXd& e = blocks[k];
     if (noise == NoiseSize::unknown) {
       e = marginalised.root.solve(e);
-      for (Index draw = 0; draw < e.cols(); ++draw) e.col(draw) *= length / e.col(draw).norm();
+      for (const Index draw : each_below(e.cols())) e.col(draw) *= length / e.col(draw).norm();
     }
     const VectorXd largest = score.largest(e);
     std::copy(largest.begin(), largest.end(),

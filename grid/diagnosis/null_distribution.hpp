@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -27,7 +27,7 @@ class SingleScore {
         dof_(noise_dof),
         square_(squared_lengths(system, marginalised)) {
     constant_.resize(square_.size());
-    for (Index k = 0; k < square_.size(); ++k) {
+    for (const Index k : each_below(square_.size())) {
       const Regressor& d = system.regressor(k);
       fixed_.push_back(d.fixed);
       sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
@@ -41,7 +41,7 @@ class SingleScore {
   /// The largest over the columns of normal equations with this many rows.
   double largest(const NormalEquations& equations, Index rows) const {
     double result = kNoScore;
-    for (std::size_t i = 0; i < equations.columns.size(); ++i) {
+    for (const auto i : each_index(equations.columns)) {
       const auto at = as_index(i);
       result = std::max(result, score(equations.columns[i], equations.gg(at, at), equations.ge(at),
                                       equations.ee, as_double(rows)));
@@ -54,12 +54,12 @@ class SingleScore {
     // Thousands of draws: only products with distinct columns are stored.
     const RegressorColumns& g = system_.g;
     const MatrixXd rows = marginalised_.kept.spread(marginalised_.root.solve(e));
-    const MatrixXd c = linear::product(linear::transposed(g.distinct()), rows);
+    const MatrixXd c = linear::inner(g.distinct(), rows);
     const auto n = as_double(e.rows());
     VectorXd result = VectorXd::Constant(e.cols(), kNoScore);
-    for (Index draw = 0; draw < e.cols(); ++draw) {
+    for (const Index draw : each_below(e.cols())) {
       const double ee = e.col(draw).squaredNorm();
-      for (Index k = 0; k < g.cols(); ++k) {
+      for (const Index k : each_below(g.cols())) {
         const double own = g.factor(k) * c(g.index(k), draw);
         if (most(k, square_(k), own, ee, n) > result(draw))
           result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));

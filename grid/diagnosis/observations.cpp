@@ -16,8 +16,6 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 using Reason = DiagnosisFailure::Reason;
-using model::Machine;
-using model::Setting;
 
 /// The readings that the machine predicts; the sled's mass is taken as it was read.
 std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings, Machine& machine) {
@@ -50,7 +48,7 @@ constexpr double kContradiction = 6.0;  // sigmas: a slip of the pen, not of the
 
 std::optional<std::string> contradiction(const Machine& machine,
                                          const std::vector<ExtraReading>& readings) {
-  for (std::size_t i = 0; i < readings.size(); ++i) {
+  for (const auto i : each_index(readings)) {
     const ExtraReading& reading = readings[i];
     const double stated = observation::predicted_reading(machine, reading);
     const double sigma = std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
@@ -61,7 +59,7 @@ std::optional<std::string> contradiction(const Machine& machine,
           "Measure it again and correct whichever is wrong",
           name(reading.what), reading.value, stated, apart);
     }
-    for (std::size_t k = 0; k < i; ++k) {
+    for (const std::size_t k : each_below(i)) {
       const ExtraReading& other = readings[k];
       if (other.what != reading.what || other.side != reading.side) continue;
       const double both = std::hypot(other.sigma, reading.sigma);
@@ -79,7 +77,7 @@ std::optional<std::string> contradiction(const Machine& machine,
 /// From the scatter of the residuals within each group of repeats.
 std::optional<StatedNoise> noise_of_repeats(const Machine& stated, const MeasuredGrid& grid,
                                             const std::vector<LengthPoint>& points) {
-  const model::ReadingModel model(stated);
+  const ReadingModel model(stated);
   const StatedNoise usual;
   RepeatScatter scatter({usual.length_mm, usual.position_mm}, rounding_noise(grid));
   for (const auto& group : repeat_groups(points)) {
@@ -101,7 +99,7 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated, const Measure
 /// Pairs of holes without a measured distance, the farthest apart first.
 std::vector<std::string> unmeasured(const MeasuredHoles& set, std::size_t most) {
   std::vector<HoleDistance> left;
-  for (std::size_t i = 0; i < set.holes.size(); ++i) {
+  for (const auto i : each_index(set.holes)) {
     for (std::size_t j = i + 1; j < set.holes.size(); ++j) left.push_back({.from = i, .to = j});
   }
   std::erase_if(left, [&](const HoleDistance& own) { return is_measured(set, own); });
@@ -234,13 +232,13 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   std::size_t index = 0;
   for (const MeasuredGrid* grid : measured.grids()) {
     auto points = points_of(*grid, stated, index, so_far);
-    if (!points) return tl::unexpected(points.error());
+    if (!points) return failed(points);
     add(*std::move(points));
     index += grid->points.size();
   }
   observation::NumberedFrom first;
   const auto sets = measured.holes();
-  for (std::size_t k = 0; k < sets.size(); ++k) {
+  for (const auto k : each_index(sets)) {
     MeasuredHoles set = *sets[k];
     if (!set.machine) set.machine = stated;
     for (Hole& hole : set.holes) {

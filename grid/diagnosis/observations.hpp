@@ -12,11 +12,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
-using model::effects::Station;
-
 using estimation::FollowUp;
 using estimation::NumberedPlace;
 using estimation::NumberedUnit;

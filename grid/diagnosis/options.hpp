@@ -3,14 +3,26 @@
 /// Options of a diagnosis, and reasons for its failure.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 
-#include "grid/diagnosis/cause_id.hpp"
 #include "grid/progress.hpp"
 #include "model/failure.hpp"
 
+namespace chaintrue::model::effects {
+struct Effect;
+enum class EffectSide;
+}  // namespace chaintrue::model::effects
+
 namespace chaintrue::grid::diagnosis {
+
+/// An effect of the catalogue at a side.
+struct CauseId {
+  const model::effects::Effect* effect = nullptr;
+  model::effects::EffectSide side{};  ///< EffectSide::none
+  friend auto operator<=>(const CauseId&, const CauseId&) = default;
+};
 
 struct DiagnosisOptions {
   std::uint64_t seed = 1;

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "grid/diagnosis/workshop_units.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -50,7 +50,7 @@ Indices by_place(const std::vector<MeasuredPoint>& points) {
   auto result = numbers_below(points.size());
   const auto key = [&](std::size_t i) {
     const MeasuredPoint& point = points[i];
-    const model::ChainLengths lengths = point.lengths.value_or(model::ChainLengths{});
+    const ChainLengths lengths = point.lengths.value_or(ChainLengths{});
     return std::tuple(point.mark.y_mm, point.mark.x_mm, lengths.left_mm, lengths.right_mm);
   };
   stable_sort(result, ascending(key));
@@ -60,7 +60,7 @@ Indices by_place(const std::vector<MeasuredPoint>& points) {
 /// Whether a point's mark was measured more than once: which visit was first is unknown.
 Flags measured_again(const std::vector<MeasuredPoint>& points) {
   Flags again(points.size(), false);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     again[i] = any_of(points, [own = &points[i]](const MeasuredPoint& other) {
       return &other != own && distance_mm(other.mark, own->mark) <= kRepeatDistanceMm;
     });
@@ -81,7 +81,7 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& ag
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& compared = a.comparison.marginalised_systems[model.marginalised];
   Flags left_out = compared.outliers;
-  for (std::size_t u = 0; u < a.session.units.size(); ++u) {
+  for (const auto u : each_index(a.session.units)) {
     const NumberedUnit& unit = a.session.units[u];
     if (a.session.parts[unit.part].reads_chains() && again[unit.index]) left_out[u] = true;
   }
@@ -132,10 +132,9 @@ OrderColumns order_columns(const Analysis& a, const Measured& ordered) {
   std::vector<CauseId> causes;
   for (const CauseId& cause : candidates(*set).testable) {
     const bool at_a_visit = any_of(cause.effect->parameters, [](const auto& parameter) {
-      return parameter.role == model::effects::ParameterRole::place;
+      return parameter.role == ParameterRole::place;
     });
-    if (cause.effect->needs == model::effects::DataNeed::order && !at_a_visit)
-      causes.push_back(cause);
+    if (cause.effect->needs == DataNeed::order && !at_a_visit) causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
   const MatrixXd columns = system->g.dense(numbers_below<int>(system->g.cols()));
@@ -155,10 +154,9 @@ OrderColumns order_columns(const Analysis& a, const Measured& ordered) {
 double log_order_factor(const OrderColumns& order, const GivenModel& model, double noise_dof) {
   const MatrixXd g = model.noise.half_solve(reduced(model.marginalised, order.columns));
   double sum = kMinusInfinity;
-  for (const CauseScore& own :
-       single_scores(order.regressors, linear::product(linear::transposed(g), model.e),
-                     g.colwise().squaredNorm(), model.e.squaredNorm(),
-                     NoiseDensity(noise_dof, model.marginalised.kept.size())))
+  for (const CauseScore& own : single_scores(
+           order.regressors, linear::inner(g, model.e), g.colwise().squaredNorm(),
+           model.e.squaredNorm(), NoiseDensity(noise_dof, model.marginalised.kept.size())))
     sum = log_sum(sum, own.log_factor);
   return sum + model.log_odds;
 }
@@ -171,7 +169,7 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
   const std::vector<GivenModel> models = leading_models(a, measured_again(grid->points));
   std::vector<double> result(orders.size(), kMinusInfinity);
   double tried = 0.0;
-  for (std::size_t k = 0; k < orders.size(); ++k) {
+  for (const auto k : each_index(orders)) {
     const auto ordered = visited_in(measured, orders[k]);
     if (!ordered) continue;
     const OrderColumns columns = order_columns(a, *ordered);
@@ -225,7 +223,7 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
   const bool tells_corners = !contains(again, true);
   if (tells_corners && found.probability >= kOrderFound) return found;
   double from_any_corner = 0.0;
-  for (std::size_t k = 0; k < orders.size(); ++k) {
+  for (const auto k : each_index(orders)) {
     if (orders[k].rows == found.order.rows && orders[k].serpentine == found.order.serpentine)
       from_any_corner += probabilities[k];
   }
@@ -242,7 +240,7 @@ std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder
   const auto numbers = visit_numbers(points, order);
   if (!numbers) return std::nullopt;
   MeasuredGrid numbered = *grid;
-  for (std::size_t k = 0; k < places.size(); ++k) numbered.points[places[k]].order = (*numbers)[k];
+  for (const auto k : each_index(places)) numbered.points[places[k]].order = (*numbers)[k];
   Measured result;
   result.add({measured.files().front().name, std::move(numbered)});
   for (std::size_t k = 1; k < measured.files().size(); ++k) result.add(measured.files()[k]);

@@ -21,7 +21,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
 

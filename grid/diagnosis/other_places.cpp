@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/other_places.hpp"
 
-#include "grid/diagnosis/best_model.hpp"
 #include "grid/raster.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -18,7 +17,7 @@ std::size_t chain_part(const ObservationSet& session) {
 
 interp::Rectangle marked_area(const ObservationSet& session) {
   const auto& places = session.parts[chain_part(session)].observation->places();
-  const model::MarkPoint first = places.front().mark;
+  const MarkPoint first = places.front().mark;
   interp::Rectangle area{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
   for (const observation::Place& place : places) take_in(area, place.mark);
   return area;
@@ -34,11 +33,11 @@ FollowUp readings_at(const ObservationSet& session, std::size_t part,
           part};
 }
 
-ObservationSet session_at(const Analysis& a, const std::vector<model::MarkPoint>& marks) {
+ObservationSet session_at(const Analysis& a, const std::vector<MarkPoint>& marks) {
   const std::size_t part = chain_part(a.session);
   const observation::View view = a.state.view(a.session.parts[part]);
   std::vector<observation::Place> places;
-  for (const model::MarkPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     if (view.chains().at(view.sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
   }
   return with_observations(a.session, {readings_at(a.session, part, std::move(places))});
@@ -52,7 +51,7 @@ ExpectedRows expected_rows(const Analysis& a, const Estimate& fitted, const Regr
                       MatrixXd::Zero(by_setting.rows(), fitted.covariance.cols())};
   result.by_unknown.leftCols(settings) = by_setting;
   Index next = settings;
-  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
+  for (const auto k : each_index(fitted.regressors)) {
     const bool is_free = contains(fitted.free, k);
     if (const auto g = column(regressor(a, fitted.regressors[k]))) {
       result.mean += *g * fitted.coefficient(as_index(k));

@@ -21,7 +21,7 @@ FollowUp readings_at(const ObservationSet& session, std::size_t part,
 
 /// A session with a point at each reachable mark, without an order of visits. Precondition: as
 /// above.
-ObservationSet session_at(const Analysis& analysis, const std::vector<model::MarkPoint>& marks);
+ObservationSet session_at(const Analysis& analysis, const std::vector<MarkPoint>& marks);
 
 /// What a model expects of rows: their mean, and how they depend on its settings and free sizes, whose
 /// covariance is Estimate::covariance.

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/eigen.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -75,7 +75,7 @@ class MeanShifts {
   /// Removes one regressor of free size, with the prior precision of its coefficient.
   void free(const VectorXd& g, double prior) {
     VectorXd pg = g;
-    linear::add_product(pg, -1.0, taken(), linear::product(linear::transposed(taken()), g));
+    linear::add_product(pg, -1.0, taken(), linear::inner(taken(), g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
     quadratic_ -= ug * ug / denominator;
@@ -103,7 +103,7 @@ class MeanShifts {
     const MatrixXd own = taken().middleRows(group.at, group.rows);
     MatrixXd columns = MatrixXd::Zero(u_.size(), d.cols());  // P D
     columns.middleRows(group.at, group.rows) = d;
-    linear::add_product(columns, -1.0, taken(), linear::product(linear::transposed(own), d));
+    linear::add_product(columns, -1.0, taken(), linear::inner(own, d));
     const linear::Cholesky block(d.transpose() * columns.middleRows(group.at, group.rows));
     const VectorXd along = d.transpose() * u_.segment(group.at, group.rows);
     quadratic_ -= drop;
@@ -129,7 +129,7 @@ class MeanShifts {
     }
     taken_.col(count_++) = column;
     for (const auto& [at, rows] : blocks_) {
-      for (Index k = 0; k < rows; ++k)
+      for (const Index k : each_below(rows))
         own_.col(at + k).head(rows) -= column[at + k] * column.segment(at, rows);
     }
   }
@@ -162,7 +162,7 @@ MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
 std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
                                    const std::vector<OutlierGroup>& groups) {
   std::vector<FreeGroup> free;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
+  for (const auto k : each_index(groups)) {
     const OutlierGroup& group = groups[k];
     const Rows& kept = marginalised.kept.rows();
     const auto at = std::lower_bound(kept.begin(), kept.end(), group.first_row);
@@ -190,7 +190,7 @@ struct Worst {
 std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
   std::optional<Worst> worst;
   double most = kMinusInfinity;
-  for (std::size_t k = 0; k < free.size(); ++k) {
+  for (const auto k : each_index(free)) {
     if (!shifts.is_checked(free[k])) continue;
     const double drop = shifts.drop_without(free[k]);
     const double gain = drop + 2.0 * log_price_of_outlier(free[k].directions());

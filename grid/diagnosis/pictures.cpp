@@ -4,9 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -99,7 +98,7 @@ std::vector<PointPicture> point_pictures(const Analysis& a) {
   if (!a.session.reads_chains()) return {};
   const Residuals residuals = residuals_of(a);
   std::vector<PointPicture> result;
-  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+  for (const auto u : each_index(a.system.units)) {
     if (a.system.units[u].reads_chains) result.push_back(picture_of(a, residuals, u));
   }
   sort(result, ascending(&PointPicture::index));
@@ -112,7 +111,7 @@ std::vector<HolePicture> hole_pictures(const Analysis& a) {
   std::map<std::size_t, HolePicture> by_index;
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
     const auto places = tape->placed(state.view(*part));
-    for (std::size_t i = 0; i < tape->places().size(); ++i) {
+    for (const auto i : each_index(tape->places())) {
       const observation::Place& hole = tape->places()[i];
       by_index[hole.index] = {hole.name, hole.mark, places ? (*places)[i].mark : hole.mark};
     }
@@ -127,7 +126,7 @@ std::vector<DistancePicture> distance_pictures(const Analysis& a) {
   const Residuals residuals = residuals_of(a);
   std::vector<DistancePicture> result;
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
-    for (std::size_t k = 0; k < tape->units().size(); ++k) {
+    for (const auto k : each_index(tape->units())) {
       result.push_back(picture_of(a, residuals, *tape, k, part->first_unit + k));
     }
   }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -16,7 +16,7 @@ namespace chaintrue::grid::diagnosis {
 /// A point of the grid in the pictures: shifts of the tool [mm], measured less predicted.
 struct PointPicture {
   std::size_t index = 0;
-  model::MarkPoint mark;
+  MarkPoint mark;
   std::optional<int> order;
   bool bad = false;
   Vector2d before_mm = Vector2d::Zero();       ///< of the calibrated machine
@@ -28,7 +28,7 @@ struct PointPicture {
   /// The strip: chains' residuals that the best cause and its rival explain, settings refitted.
   Vector2d best_mm = Vector2d::Zero();
   Vector2d rival_mm = Vector2d::Zero();
-  model::ChainLengths lengths;
+  ChainLengths lengths;
   double angle_left_rad = 0.0;
   double angle_right_rad = 0.0;
   double tension_left_n = 0.0;
@@ -41,8 +41,8 @@ struct PointPicture {
 /// A hole in the pictures, where the calibrated machine puts it.
 struct HolePicture {
   std::string name;
-  model::MarkPoint commanded;
-  model::MarkPoint mark;
+  MarkPoint commanded;
+  MarkPoint mark;
 };
 
 /// A distance in the pictures: residuals are read less predicted [mm], the holes where the machine

@@ -14,18 +14,125 @@
 /// continues through zero as a straight line.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/observations.hpp"
-#include "grid/diagnosis/regressor_columns.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
+#include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
+#include "interp/linear_algebra.hpp"
+#include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+// A matrix whose columns are multiples of fewer: two lost links have twice the effect of one, at
+// each of hundreds of visits. Only distinct columns are stored, so time and memory depend on their
+// number.
+//
+// \code
+//   RegressorColumns g(rows);
+//   g.add(one_link, -1.0);        // column 0
+//   g.add_multiple(2.0);          // column 1: 2 one_link
+//   const double c = g.col(1).dot(e);
+// \endcode
+
+/// Some of a system's regressors, by number.
+using RegressorSet = std::vector<int>;
+
+class RegressorColumns {
+ public:
+  RegressorColumns() = default;
+  explicit RegressorColumns(Index rows) : distinct_(rows, 0) {}
+
+  /// factor times this.
+  void add(const VectorXd& column, double factor = 1.0) {
+    if (column.size() != rows()) {
+      throw precondition("a column of {} rows among columns of {}", column.size(), rows());
+    }
+    if (count_ == distinct_.cols()) {
+      distinct_.conservativeResize(Eigen::NoChange, std::max<Index>(16, 2 * count_));
+    }
+    distinct_.col(count_) = column;
+    of_.push_back({count_, factor});
+    ++count_;
+  }
+
+  /// Gives back the room for more: with hundreds of visits as much as all columns.
+  void fit() { distinct_.conservativeResize(Eigen::NoChange, count_); }
+
+  /// factor times the last added column.
+  void add_multiple(double factor) {
+    if (count_ == 0) throw precondition("{} times the last of no columns", factor);
+    of_.push_back({count_ - 1, factor});
+  }
+
+  /// Column k is factor(k) times column index(k) of these.
+  auto distinct() const { return distinct_.leftCols(count_); }
+  Index index(Index k) const { return of_[as_size(k)].index; }
+  double factor(Index k) const { return of_[as_size(k)].factor; }
+  Index rows() const { return distinct_.rows(); }
+  Index cols() const { return std::ssize(of_); }
+  auto col(Index k) const { return distinct_.col(index(k)) * factor(k); }
+
+  /// rows() x columns.size()
+  MatrixXd dense(const RegressorSet& columns) const {
+    MatrixXd result(rows(), std::ssize(columns));
+    for (const Index k : each_below(result.cols())) {
+      result.col(k) = col(columns[as_size(k)]);
+    }
+    return result;
+  }
+
+  RegressorColumns subset(const ColumnSet& columns) const {
+    ColumnSet kept;  // for the distinct columns, in their order
+    RegressorColumns result;
+    for (const Index k : columns) {
+      if (kept.empty() || kept.back() != index(k)) kept.push_back(index(k));
+      result.of_.push_back({std::ssize(kept) - 1, factor(k)});
+    }
+    result.distinct_ = distinct_(Eigen::all, kept);
+    result.count_ = result.distinct_.cols();
+    return result;
+  }
+
+  /// cols() x columns of m: inner products of every column with those of a matrix, or with a vector.
+  template <class M>
+  linear::Like<M> transpose_times(const M& m) const {
+    const linear::Like<M> products = linear::inner(distinct(), m);
+    linear::Like<M> result(cols(), m.cols());
+    for (const Index column : each_below(m.cols())) {
+      for (const Index k : each_below(cols()))
+        result(k, column) = factor(k) * products(index(k), column);
+    }
+    return result;
+  }
+
+  /// cols(): squared lengths of a map of every column.
+  template <class Map>
+  VectorXd squared_norms(const Map& map) const {
+    VectorXd squares(count_);
+    for (const Index k : each_below(count_))
+      squares(k) = map(VectorXd(distinct_.col(k))).squaredNorm();
+    VectorXd result(cols());
+    for (const Index k : each_below(cols())) result(k) = factor(k) * factor(k) * squares(index(k));
+    return result;
+  }
+
+ private:
+  struct Multiple {
+    Index index = 0;
+    double factor = 1.0;
+  };
+  MatrixXd distinct_;  ///< with room for more
+  Index count_ = 0;
+  std::vector<Multiple> of_;
+};
 
 using estimation::SystemPlace;
 using estimation::SystemUnit;
@@ -128,5 +235,32 @@ inline Flags nothing_rejected(const RegressorSystem& system) {
 /// Without regressors. Fails with the first place that the machine cannot reach.
 [[nodiscard]] tl::expected<RegressorSystem, observation::Unreachable> linearise(
     const ObservationSet& set, const State& state);
+
+// Where or when an effect may set in, by the variable of its place at the places of the tool.
+// Private to grid/diagnosis.
+
+/// The parameter for where or when an effect sets in; null if it has none.
+const EffectParameter* place_parameter(const Effect& effect);
+
+/// The variable that this place is compared with.
+PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place);
+/// Between the nearest places of the tool to either side of it, in that variable: a step at one place between them
+/// is the same at all readings as one at another. Empty if a side has none, and for phases.
+struct PlaceGap {
+  double below = 0.0;
+  double above = 0.0;
+};
+std::optional<PlaceGap> gap_about(const RegressorSystem& system, CauseId cause, double place);
+
+/// The variable's value at every place of the tool, for the chain of this side or of either.
+std::vector<double> compared_at_places(const RegressorSystem& system, PlaceVariable variable,
+                                       EffectSide side);
+
+/// Places where an effect may set in: visits, phases of a turn, angles (or another variable of the
+/// place) between those of the places of the tool.
+std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId cause);
+
+/// Whether its formula has a step where it sets in, and so no derivative by its place.
+bool has_step(const Effect& effect);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -3,17 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "grid/chain_rows.hpp"
 #include "grid/diagnosis/law_curves.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-using model::effects::PlaceVariable;
 
 constexpr int kMostLinks = 3;  // larger ones are visible to the eye
 
@@ -25,7 +21,7 @@ std::vector<const Effect*> effects_of(const State& state) {
 
 /// The state with one more effect. \pre problems_with_effect() has none.
 State with_effect(State state, CauseId cause, const std::vector<double>& values) {
-  const model::AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  const AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
   if (state.mechanism) {
     state.mechanism = state.mechanism->with_effects({own});
   } else {
@@ -36,9 +32,9 @@ State with_effect(State state, CauseId cause, const std::vector<double>& values)
 
 std::vector<model::MachineProblem> problems_with_effect(const State& state, CauseId cause,
                                                         const std::vector<double>& values) {
-  const model::AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  const AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
   if (state.mechanism) return state.mechanism->problems_of_effects({own});
-  model::Machine machine = state.machine;
+  Machine machine = state.machine;
   machine.effects.push_back(own);
   return model::effects::problems_of_effects(machine);
 }
@@ -62,7 +58,7 @@ Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, Cau
   Vector2d mm = Vector2d::Zero();
   if (is_of_readings(cause) && !place.ordered) return mm;
   const model::Pose& pose = place.state.reading.pose;
-  for (const model::Side side : model::kSides) {
+  for (const Side side : kSides) {
     if (!model::effects::acts_on(cause.side, side)) continue;
     model::effects::LengthState chain = model::effects::chain_at_rest(pose, side, sprocket);
     chain.order = place.order;
@@ -168,7 +164,7 @@ class Builder {
     const double to = std::min(place.upper, there.back());
     if (!(from < to)) return;
     const StepPlaces where = step_places(there, from, to);
-    for (std::size_t k = 0; k < where.at.size(); ++k) {
+    for (const auto k : each_index(where.at)) {
       values.back() = where.at[k];
       add_one(cause, values, std::log(share_of_side(cause) * where.mass[k]));
     }

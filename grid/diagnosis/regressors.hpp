@@ -10,7 +10,7 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/best_model.hpp"
-#include "grid/eigen.hpp"
+#include "grid/diagnosis/analysis.hpp"
+#include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -129,8 +129,7 @@ class Round {
     const auto without = [gram = linear::PivotedCholesky(linear::gram(others)),
                           others](VectorXd v) {
       if (others.cols() > 0) {
-        linear::add_product(v, -1.0, others,
-                            gram.solve(linear::product(linear::transposed(others), v)));
+        linear::add_product(v, -1.0, others, gram.solve(linear::inner(others, v)));
       }
       return v;
     };
@@ -178,7 +177,7 @@ void relinearise(Analysis& a) {
     bool converged = here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() <
                      kConvergedSettingMm;
     std::vector<Regressor> moved = own;
-    for (std::size_t k = 0; k < own.size(); ++k) {
+    for (const auto k : each_index(own)) {
       if (own[k].fixed) continue;
       moved[k].values.front() = here.size(k);
       converged = converged && std::abs(moved[k].values.front() - own[k].values.front()) <

@@ -18,7 +18,7 @@ constexpr std::size_t kTakenOut = 3;
 /// Adds the places of each cause that explain most of `e`.
 void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& e,
               std::size_t of_a_cause, std::set<int>& chosen) {
-  const VectorXd c = linear::product(linear::transposed(g), e);
+  const VectorXd c = linear::inner(g, e);
   const VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
   const auto take = [&] {
@@ -27,12 +27,12 @@ void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& 
     for (const auto& [score, k] : scores) chosen.insert(k);
     scores.clear();
   };
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+  for (const auto k : each_index(system.regressors)) {
     const Regressor& own = system.regressors[k];
     if (k > 0 && own.cause != system.regressors[k - 1].cause) take();
     const auto at = as_index(k);
     if (!(square(at) > kLeastSquare)) continue;
-    scores.emplace_back(score_alone(own, c(at), square(at)), static_cast<int>(k));
+    scores.emplace_back(score_alone(own, c(at), square(at)), as_int(k));
   }
   take();
 }
@@ -61,8 +61,8 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
     taken.push_back(cause);
     const VectorXd own = all.col(k).normalized();
     MatrixXd g = all;
-    const VectorXd along = linear::product(linear::transposed(all), own);
-    for (Index column = 0; column < g.cols(); ++column) g.col(column) -= along[column] * own;
+    const VectorXd along = linear::inner(all, own);
+    for (const Index column : each_below(g.cols())) g.col(column) -= along[column] * own;
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
   std::erase_if(chosen, [&](int k) {
@@ -98,7 +98,7 @@ std::vector<CandidateModel> SetSearch::run() {
     return collector_.take();
   }
   sets_.weigh({});
-  for (Index k = 0; k < equations_.ge.size(); ++k) sets_.weigh({k});
+  for (const Index k : each_below(equations_.ge.size())) sets_.weigh({k});
   if (!options_.given_cause) {
     pairs();
     sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
@@ -129,7 +129,7 @@ RegressorSet SetSearch::columns() const {
   RegressorSet kept;
   RegressorSet fixed;
   RegressorSet shifts;
-  const auto count = static_cast<int>(system_.regressors.size());
+  const auto count = as_int(system_.regressors.size());
   const VectorXd c = with_regressors(system_, marginalised_, marginalised_.e);
   const VectorXd square = squared_lengths(system_, marginalised_);
   for (int k = 0; k < count; ++k) {
@@ -152,7 +152,7 @@ RegressorSet SetSearch::columns() const {
   std::vector<std::pair<double, int>> gains;
   for (const int k : fixed) {
     double best = explained(k);
-    for (std::size_t l = 0; l < likeliest.size(); ++l) {
+    for (const auto l : each_index(likeliest)) {
       const double ll = square(likeliest[l]);
       const double x = cross(k, as_index(l));
       best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
@@ -211,8 +211,8 @@ void SetSearch::pairs() {
   const auto count = std::ssize(equations_.columns);
   std::vector<std::pair<double, ColumnSet>> quick;
   double best = kMinusInfinity;
-  for (Index i = 0; i < count; ++i) {
-    for (Index j = 0; j < i; ++j) {
+  for (const Index i : each_below(count)) {
+    for (const Index j : each_below(i)) {
       if (!compatible(sets_.regressor(i), sets_.regressor(j), options_.search)) continue;
       const double weight = quick_weight(i, j);
       if (weight < best - kPairsWithin) continue;
@@ -236,7 +236,7 @@ ColumnSet SetSearch::extensions(const ColumnSet& parent) const {
   linear::add_product(left, -1.0, across, own.solve(VectorXd(equations_.ge(parent))));
   const MatrixXd shares = own.solve(across.transpose());
   std::vector<std::pair<double, Index>> order;
-  for (Index i = 0; i < left.size(); ++i) {
+  for (const Index i : each_below(left.size())) {
     if (!sets_.fits(parent, i)) continue;
     const double square = equations_.gg(i, i) - across.row(i).dot(shares.col(i));
     if (!(square > 1e-6 * equations_.gg(i, i))) continue;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/diagnosis/model_collector.hpp"
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/failed.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// Residuals with the placement of the sheet, and nothing else, fitted to the points that count:
 /// whitened rows of points.
 VectorXd placed(RegressorSystem system, const VectorXd& left) {
-  const Index sheet = system.setting.size() - std::ssize(model::kMachineSettings);
+  const Index sheet = system.setting.size() - std::ssize(kMachineSettings);
   if (sheet == 0) return left;
   system.by_setting = system.by_setting.rightCols(sheet).eval();
   system.setting = system.expected_change = VectorXd::Zero(sheet);
@@ -29,15 +29,15 @@ VectorXd placed(RegressorSystem system, const VectorXd& left) {
 /// Residuals of the second session with the first one's model, before placing its sheet.
 VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet& to,
                  const State& state, const RegressorSystem& system) {
-  const auto machine = std::ssize(model::kMachineSettings);
+  const auto machine = std::ssize(kMachineSettings);
   VectorXd left = system.e - linear::product(system.by_setting.leftCols(machine),
                                              model.setting_change.head(machine));
-  for (std::size_t k = 0; k < model.regressors.size(); ++k) {
+  for (const auto k : each_index(model.regressors)) {
     const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
     if (d.cause.effect->station == Station::reading) continue;
-    if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
+    if (d.cause.effect->needs == DataNeed::order && !to.ordered()) continue;
     const auto g = signature(to, state, system, d);
     if (g) left -= *g * model.coefficient(as_index(k));
   }
@@ -49,7 +49,7 @@ Indices block_numbers(const ObservationSet& session) {
   for (const NumberedPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
   Indices number(points.size(), 0);
   const auto blocks = spatial_blocks(points);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  for (const auto b : each_index(blocks)) {
     for (const std::size_t i : blocks[b]) number[i] = b;
   }
   return number;
@@ -67,7 +67,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                   const Diagnosis& diagnosis,
                                                   const MeasuredGrid& to) {
   const auto first = observations_of(from);
-  if (!first) return tl::unexpected(first.error());
+  if (!first) return failed(first);
   // The second grid is treated as measured with the first one's machine, regardless of its file.
   MeasuredGrid other = to;
   other.machine = from.machine;
@@ -77,14 +77,14 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   }
   other.readings.clear();
   auto second = observations_of(other);
-  if (!second) return tl::unexpected(second.error());
+  if (!second) return failed(second);
   DiagnosisOptions options;
   options.seed = diagnosis.seed;
   const auto analysis = analyse(*first, options);
-  if (!analysis) return tl::unexpected(analysis.error());
+  if (!analysis) return failed(analysis);
   const Analysis& a = *analysis;
   // The other sheet was placed separately.
-  State state{a.state.machine, std::vector<model::SheetPlacement>(second->sheets)};
+  State state{a.state.machine, std::vector<SheetPlacement>(second->sheets)};
   if (first->sheets == second->sheets) state.sheets = a.state.sheets;
   const auto system = linearise(*second, state);
   const auto stated = linearise(*second, stated_state(*second));

@@ -5,10 +5,10 @@
 #include <map>
 #include <numbers>
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/eigen.hpp"
 #include "grid/random.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -16,7 +16,7 @@ std::string_view name(Enters enters) {
   constexpr std::string_view kNames[] = {"left", "right", "alike", "opposite", "x",
                                          "y",    "mixed", "along", "outwards", "tl",
                                          "tr",   "bl",    "br"};
-  return kNames[static_cast<std::size_t>(enters)];
+  return kNames[as_size(enters)];
 }
 
 namespace {
@@ -162,9 +162,9 @@ MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
   Random random(a.options.seed, stream);
   MatrixXd z(n, draws);
   VectorXd u(shared);
-  for (Index draw = 0; draw < draws; ++draw) {
-    for (Index i = 0; i < n; ++i) z(i, draw) = random.normal();
-    for (Index q = 0; q < shared; ++q) u(q) = random.normal();
+  for (const Index draw : each_below(draws)) {
+    for (const Index i : each_below(n)) z(i, draw) = random.normal();
+    for (const Index q : each_below(shared)) u(q) = random.normal();
     linear::add_product(z.col(draw), 1.0, by_nuisance, u);
   }
   // What is left, then minus the unknowns.
@@ -184,8 +184,7 @@ double p_of_structure(const Analysis& a) {
   const MatrixXd factor =
       discrepancy_factor(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
   const MatrixXd weighed = nuisance_noise(a.system, kept).solve(e);
-  const ArrayXd in_common =
-      linear::product(linear::transposed(factor), weighed).colwise().squaredNorm();
+  const ArrayXd in_common = linear::inner(factor, weighed).colwise().squaredNorm();
   const ArrayXd all = (e.array() * weighed.array()).colwise().sum();
   const ArrayXd share = in_common / all.max(1e-300);
   const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();
@@ -200,7 +199,7 @@ double share_along(const Analysis& a, Coordinate coordinate) {
   if (n == 0) return 0.0;
   ArrayXd t(n);
   MatrixXd values(n, 2);
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : each_below(n)) {
     const SystemUnit& unit = a.system.units[units[as_size(i)]];
     t(i) = value_at(a.system.places[unit.places.front().place], coordinate);
     values.row(i) = unit.unwhitened(a.estimate.left).transpose();

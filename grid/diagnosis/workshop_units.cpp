@@ -14,8 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::EffectSide;
-
 struct Unit {
   std::string_view parameter;
   double factor;
@@ -81,7 +79,7 @@ constexpr Unit kUnits[] = {
 
 /// Null for a parameter without words. The meaning of a declared effect's parameter is known only to its
 /// author.
-const Unit* unit_for(const model::effects::Effect& effect, std::string_view parameter) {
+const Unit* unit_for(const Effect& effect, std::string_view parameter) {
   if (effect.law != nullptr) return nullptr;
   const auto* own = find_where(kUnitsOfEffects, [&](const UnitOfEffect& one) {
     return one.effect == effect.id && one.unit.parameter == parameter;
@@ -169,7 +167,7 @@ std::string coordinate_words(std::string_view coordinate) {
 }
 
 std::string side_words(const CauseId& cause) {
-  if (cause.side == EffectSide::both && cause.effect->station == model::effects::Station::paper)
+  if (cause.side == EffectSide::both && cause.effect->station == Station::paper)
     return " along both axes";
   constexpr std::string_view kWords[] = {"",
                                          " on the left",
@@ -182,13 +180,13 @@ std::string side_words(const CauseId& cause) {
                                          " at the bottom left",
                                          " at the bottom right",
                                          ", all four equally"};  // by EffectSide
-  return std::string(kWords[static_cast<std::size_t>(cause.side)]);
+  return std::string(kWords[as_size(cause.side)]);
 }
 
 std::string joined(const std::vector<std::string>& parts, std::string_view last,
                    std::string_view between) {
   std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (const auto i : each_index(parts)) {
     if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : std::string(between);
     text += parts[i];
   }

@@ -7,18 +7,17 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "grid/containers.hpp"
 #include "grid/estimation/estimator.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
 
-ParameterKnowledge stated_knowledge(const model::Machine& machine) {
+ParameterKnowledge stated_knowledge(const Machine& machine) {
   ParameterKnowledge knowledge{VectorXd::Zero(kMachineUnknowns),
                                MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns)};
-  for (Index i = 0; i < kMachineSettingCount; ++i) {
+  for (const Index i : each_below(kMachineSettingCount)) {
     const double sigma =
-        std::max(model::stated_sigma(machine, model::kMachineSettings[as_size(i)]), kKnownSigma);
+        std::max(model::stated_sigma(machine, kMachineSettings[as_size(i)]), kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;
   }
   knowledge.covariance(kMachineSettingCount, kMachineSettingCount) = knowledge.covariance(
@@ -35,12 +34,12 @@ std::string words_of(const std::array<SessionZero, 2>& zeros) {
   // Sigmas, 1 in 16 000 for each chain: a warning makes somebody inspect the chains.
   constexpr double kSpokenOf = 4.0;
   std::string words;
-  for (const model::Side side : model::kSides) {
+  for (const Side side : kSides) {
     const SessionZero& zero = zeros[as_size(row_of(side))];
     if (!(std::abs(zero.mm) > kSpokenOf * zero.sigma_mm)) continue;
     words += fmt::format("{}{} chain {:.1f} +- {:.1f} mm {}", words.empty() ? "" : ", ",
-                         side == model::Side::left ? "left" : "right", std::abs(zero.mm),
-                         zero.sigma_mm, zero.mm > 0.0 ? "more" : "less");
+                         side == Side::left ? "left" : "right", std::abs(zero.mm), zero.sigma_mm,
+                         zero.mm > 0.0 ? "more" : "less");
   }
   return words;
 }

@@ -45,11 +45,12 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 #include "interp/reml.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/failure.hpp"
@@ -72,7 +73,7 @@ inline constexpr double kSurfaceEvidence = 3.0;
 inline constexpr std::size_t kFewestSingleRows = 5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
-inline constexpr Index kMachineUnknowns = model::kMachineSettings.size() + 2;
+inline constexpr Index kMachineUnknowns = kMachineSettings.size() + 2;
 
 /// Prior of a mechanism's parameters, as deviations from the stated values; for two chains also of
 /// both scales, which come last.
@@ -81,7 +82,7 @@ struct ParameterKnowledge {
   MatrixXd covariance;
 };
 /// The machine's stated uncertainty, and kScaleSigma of each scale.
-ParameterKnowledge stated_knowledge(const model::Machine& machine);
+ParameterKnowledge stated_knowledge(const Machine& machine);
 
 enum class SurfaceUse {
   none,
@@ -90,7 +91,7 @@ enum class SurfaceUse {
 };
 
 /// Units that are left out together.
-using UnitGroup = std::vector<std::size_t>;
+using UnitGroup = Indices;
 
 /// Limits for rejecting single readings of units whose readings may be outliers one by one
 /// (reading_shifts.hpp). The worst is rejected first; those that fit once a worse one is gone count
@@ -103,10 +104,10 @@ struct ReadingLimits {
 };
 
 struct EstimationInput {
-  model::Machine machine;  ///< as stated
+  Machine machine;  ///< as stated
   /// Replaces the two chains of `machine`: its values are the starting point. A mechanism of other
   /// than two lengths has no scales and no surface.
-  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
+  std::shared_ptr<const Mechanism> mechanism = nullptr;
   /// The marks' frame of the first is that of the surface and of the map.
   observation::Observations observations;
   interp::NoiseScale noise;
@@ -154,10 +155,10 @@ struct ReadingEstimate {
 
 struct PlaceEstimate {
   /// Position by the stated machine, with a free sheet placed as defined above.
-  model::MarkPoint as_stated;
-  model::MarkPoint mark;
-  Matrix2d by_mark;             ///< d(L, R)/d(mark), corrected
-  model::ChainLengths lengths;  ///< of the machine alone
+  MarkPoint as_stated;
+  MarkPoint mark;
+  Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
+  ChainLengths lengths;  ///< of the machine alone
 };
 
 struct SessionZero {
@@ -170,7 +171,7 @@ std::string words_of(const std::array<SessionZero, 2>& zeros);
 
 /// Results of one observation.
 struct ObservationEstimate {
-  model::SheetPlacement sheet;
+  SheetPlacement sheet;
   VectorXd predicted;  ///< in the order of the observation's rows
   std::vector<PlaceEstimate> places;
   VectorXd nuisance;
@@ -181,8 +182,8 @@ struct ObservationEstimate {
 };
 
 struct Estimate {
-  model::Machine machine;                ///< calibrated
-  std::vector<model::Setting> settings;  ///< of the machine, and of the first sheet
+  Machine machine;                ///< calibrated
+  std::vector<Setting> settings;  ///< of the machine, and of the first sheet
   /// Deviations of the settings from what was stated, then the scales.
   VectorXd map_unknowns;
   FitColumns columns;
@@ -200,7 +201,7 @@ struct Estimate {
   bool converged = true;
   /// With the fitted values; for two chains that of `machine`. Its parameters are the first of
   /// map_unknowns and of covariance.
-  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
+  std::shared_ptr<const Mechanism> mechanism = nullptr;
 };
 
 enum class EstimationReason { place_unreachable, rank_deficient, not_converged };

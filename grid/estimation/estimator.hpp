@@ -16,9 +16,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/finished_fit.hpp"
+#include "grid/failed.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -39,11 +40,11 @@ class Estimator {
         state_(problem_->stated()) {}
 
   tl::expected<Estimate, EstimationFailure> run() {
-    if (auto done = approach(); !done) return tl::unexpected(done.error());
-    if (auto done = converge(); !done) return tl::unexpected(done.error());
+    if (auto done = approach(); !done) return failed(done);
+    if (auto done = converge(); !done) return failed(done);
     if (input_.reading_limits) reject_readings();
     if (input_.surface == SurfaceUse::on_evidence) {
-      if (auto done = choose_surface(); !done) return tl::unexpected(done.error());
+      if (auto done = choose_surface(); !done) return failed(done);
     }
     return result();
   }
@@ -151,16 +152,16 @@ class Estimator {
       const bool perhaps_last = converged_ || last || !problem_->has_surface();
       if (perhaps_last) smoothing = Smoothing::choose;
       if (!is_linearised_) {
-        if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
+        if (auto done = problem_->linearise(state_); !done) return failed(done);
       }
       is_linearised_ = false;
       begin_weights();
       if (as_stated_.empty()) {
-        for (std::size_t k = 0; k < input_.observations.size(); ++k)
+        for (const auto k : each_index(input_.observations))
           as_stated_.push_back(problem_->marks(k));
       }
       Fit fit = solve(weights_, smoothing, perhaps_last && problem_->has_surface());
-      if (!fit) return tl::unexpected(fit.error());
+      if (!fit) return failed(fit);
       fit_ = *std::move(fit);
       State next = problem_->state_of(fit_);
       const double step = step_to(next, rule);
@@ -213,14 +214,14 @@ class Estimator {
   /// False, with nothing changed, if the fit without them fails.
   bool converge_without(RejectedReadings rejected) {
     std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
-    for (std::size_t u = 0; u < rejected.size(); ++u) {
+    for (const auto u : each_index(rejected)) {
       const SystemUnit& unit = problem_->units()[u];
       for (const Index i : rejected[u]) of_observation[unit.observation].push_back({unit.unit, i});
     }
     const observation::Observations before = input_.observations;
     auto fit = fit_;
     auto state = state_;
-    for (std::size_t k = 0; k < before.size(); ++k) {
+    for (const auto k : each_index(before)) {
       if (auto other = before[k]->about_others(of_observation[k]))
         input_.observations[k] = std::move(other);
     }
@@ -269,7 +270,7 @@ class Estimator {
 
   double step_to(const State& next, const ConvergenceRule& rule) const {
     double step = 0.0;
-    for (Index i = 0; i < problem_->settings(); ++i) {
+    for (const Index i : each_below(problem_->settings())) {
       const double stated = problem_->set().stated_sigma[i];
       if (stated <= kKnownSigma) continue;
       // Without a prior the sigma from the readings sets the scale; for noise-free readings, a
@@ -279,7 +280,7 @@ class Estimator {
           std::isfinite(stated) ? stated : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
       step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
     }
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       if (!rule.scales_count || problem_->unknowns().scales == 0) break;
       step = std::max(
           step, std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
@@ -291,10 +292,11 @@ class Estimator {
     if (input_.fixed_weights) return false;
     LeftOut left_out(*problem_, fit_, weights_);
     left_out.prepare_units();
-    for (Index u = 0; u < distances_.size(); ++u) distances_[u] = left_out.distance(as_size(u));
+    for (const Index u : each_below(distances_.size()))
+      distances_[u] = left_out.distance(as_size(u));
     double change = 0.0;
     VectorXd next = weights_;
-    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    for (const auto u : each_index(problem_->units())) {
       const UnitRule rule = rule_of(problem_->units()[u].rows);
       const auto at = as_index(u);
       if (rule.worst_first && weights_[at] == 0.0) continue;
@@ -318,7 +320,7 @@ class Estimator {
     constexpr double kSuspect = 2.5;
     std::optional<std::size_t> worst;
     std::size_t candidates = 0;
-    for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    for (const auto u : each_index(problem_->units())) {
       const auto at = as_index(u);
       if (weights_[at] == 0.0 || !rule_of(problem_->units()[u].rows).worst_first) continue;
       ++candidates;
@@ -376,7 +378,7 @@ class Estimator {
   VectorXd weights_;
   VectorXd distances_;
   interp::PenalisedFit fit_;
-  std::vector<std::vector<model::MarkPoint>> as_stated_;
+  std::vector<std::vector<MarkPoint>> as_stated_;
   bool converged_ = false;
   bool is_linearised_ = false;  ///< the problem is about the state
   double surface_log_evidence_ = 0.0;

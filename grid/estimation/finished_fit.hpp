@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/left_out.hpp"
+#include "grid/failed.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/reading_model.hpp"
 
@@ -23,7 +24,7 @@ inline MatrixXd map_covariance(const JointProblem& problem, const interp::Penali
   const ObservedSubspace* observed = problem.observed();
   MatrixXd to_splines = MatrixXd::Zero(columns.total(), unknowns.total());
   to_splines.topLeftCorner(columns.settings, columns.settings).setIdentity();
-  for (const model::Side side : model::kSides) {
+  for (const Side side : kSides) {
     if (unknowns.scales == 0) break;
     to_splines(columns.scale(side), unknowns.scale(side)) = 1.0;
     if (observed == nullptr) continue;
@@ -35,7 +36,7 @@ inline MatrixXd map_covariance(const JointProblem& problem, const interp::Penali
   if (observed == nullptr) return result;
   const MatrixXd unobserved =
       fit.inverse_lambda * observed->null_space * observed->null_space.transpose();
-  for (const model::Side side : model::kSides) {
+  for (const Side side : kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
         unobserved;
   }
@@ -48,13 +49,13 @@ struct FinishedFit {
   const State& state;
   const VectorXd& weights;
   const VectorXd& distances;  ///< of units; those with fixed weights are found here
-  const std::vector<std::vector<model::MarkPoint>>& as_stated;
+  const std::vector<std::vector<MarkPoint>>& as_stated;
 
   [[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate() const {
     const EstimationInput& input = problem.input();
     Estimate estimate{.machine = input.machine, .surface = state.surface};
     estimate.mechanism = problem.mechanism_at(problem.coefficients(fit));
-    if (const auto* chains = dynamic_cast<const model::ReadingModel*>(estimate.mechanism.get())) {
+    if (const auto* chains = dynamic_cast<const ReadingModel*>(estimate.mechanism.get())) {
       estimate.machine = chains->machine();
       estimate.settings =
           observation::settings_in(observation::columns_of(*input.observations.front()));
@@ -64,7 +65,7 @@ struct FinishedFit {
     estimate.effective_parameters = fit.edf;
     fill_covariances(estimate);
     fill_units(estimate);
-    if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
+    if (auto done = fill_observations(estimate); !done) return failed(done);
     return estimate;
   }
 
@@ -76,7 +77,7 @@ struct FinishedFit {
     const VectorXd coefficients = problem.coefficients(fit);
     const auto with_scales = [&](Index settings) {
       auto columns = numbers_below<Index>(settings);
-      for (Index i = 0; i < unknowns.scales; ++i) columns.push_back(unknowns.of_set + i);
+      for (const Index i : each_below(unknowns.scales)) columns.push_back(unknowns.of_set + i);
       return columns;
     };
     estimate.map_unknowns = coefficients(with_scales(problem.settings()));
@@ -89,7 +90,7 @@ struct FinishedFit {
     LeftOut left_out(problem, fit, weights);
     left_out.prepare_units();
     if (!input.held_out_together.empty()) left_out.prepare_all();
-    for (std::size_t u = 0; u < problem.units().size(); ++u) {
+    for (const auto u : each_index(problem.units())) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
       const MatrixXd back = unit.whitening.inverse();
@@ -109,7 +110,7 @@ struct FinishedFit {
     }
     for (const UnitGroup& group : input.held_out_together) {
       const auto residuals = left_out.residuals(group);
-      for (std::size_t k = 0; k < group.size(); ++k) {
+      for (const auto k : each_index(group)) {
         estimate.units[group[k]].left_out_with_group =
             problem.units()[group[k]].whitening.inverse() * residuals[k];
       }
@@ -120,7 +121,7 @@ struct FinishedFit {
     const VectorXd coefficients = problem.coefficients(fit);
     const VectorXd sigma = problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
     const auto corrections = problem.corrections_of(state);
-    for (std::size_t k = 0; k < problem.set().parts.size(); ++k) {
+    for (const auto k : each_index(problem.set().parts)) {
       const ObservationPart& part = problem.set().parts[k];
       ObservationEstimate own;
       own.sheet = problem.sheet_at(coefficients, k);
@@ -135,13 +136,13 @@ struct FinishedFit {
         const Vector2d zeros = coefficients(part.zero_columns);
         const Vector2d zero_sigma = sigma(part.zero_columns);
         own.zeros = {{{zeros[0], zero_sigma[0]}, {zeros[1], zero_sigma[1]}}};
-        for (std::size_t u = 0; u < line->units.size(); ++u) {
+        for (const auto u : each_index(line->units)) {
           const observation::Unit& rows = part.observation->units()[u];
           for (const observation::PlaceColumns& place : line->units[u].places)
             own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
         }
       }
-      for (std::size_t i = 0; i < line->places.size(); ++i) {
+      for (const auto i : each_index(line->places)) {
         const observation::ChainPlaceState& place = line->places[i];
         own.places.push_back({as_stated[k][i], place.mark, place.by_mark, place.reading.lengths});
       }

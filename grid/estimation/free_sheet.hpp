@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/coordinates.hpp"
 
@@ -28,21 +28,21 @@ namespace chaintrue::grid::estimation {
 
 /// The places of one observation.
 struct PlacesOnSheet {
-  std::vector<model::MarkPoint> commanded;
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> commanded;
+  std::vector<MarkPoint> marks;
   MatrixXd by_unknown;  ///< G
   VectorXd moved;       ///< g
-  std::vector<Index> free_columns;
-  std::vector<Index> free_rows;  ///< of M, in the same order
+  ColumnSet free_columns;
+  Rows free_rows;  ///< of M, in the same order
 
   /// M
   MatrixXd whole_motion() const {
     const auto count = std::ssize(commanded);
     Vector2d middle = Vector2d::Zero();
-    for (const model::MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
+    for (const MarkPoint& c : commanded) middle += vector_of(c) / as_double(count);
     MatrixXd motion = MatrixXd::Zero(3, 2 * count);
     double squares = 0.0;
-    for (Index i = 0; i < count; ++i) {
+    for (const Index i : each_below(count)) {
       const Vector2d at = vector_of(commanded[as_size(i)]) - middle;
       motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / as_double(count);
       motion(2, 2 * i) = -at.y();
@@ -56,7 +56,7 @@ struct PlacesOnSheet {
   /// m - c
   VectorXd alongside() const {
     VectorXd all(2 * std::ssize(marks));
-    for (std::size_t i = 0; i < marks.size(); ++i) {
+    for (const auto i : each_index(marks)) {
       all.segment<2>(2 * as_index(i)) = difference(marks[i], commanded[i]);
     }
     return all;
@@ -65,14 +65,14 @@ struct PlacesOnSheet {
 
 /// Free directions of all sheets.
 struct FreeDirections {
-  std::vector<Index> columns;  ///< x_f
-  VectorXd constant;           ///< a
-  MatrixXd following;          ///< F by all unknowns, nothing by x_f
+  ColumnSet columns;   ///< x_f
+  VectorXd constant;   ///< a
+  MatrixXd following;  ///< F by all unknowns, nothing by x_f
 
   /// Adds (1) of one observation. \returns its marks with the free directions corrected and all else
   /// unchanged.
-  std::vector<model::MarkPoint> add(const PlacesOnSheet& places) {
-    std::vector<model::MarkPoint> marks = places.marks;
+  std::vector<MarkPoint> add(const PlacesOnSheet& places) {
+    std::vector<MarkPoint> marks = places.marks;
     if (places.free_columns.empty()) return marks;
     const MatrixXd motion = places.whole_motion()(places.free_rows, Eigen::all);
     const MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
@@ -91,7 +91,7 @@ struct FreeDirections {
         -linear::product(inverse, linear::product(motion, places.by_unknown));
     following.bottomRows(more)(Eigen::all, places.free_columns).setZero();
     const VectorXd shift = linear::product(by_free, needed(alongside));
-    for (std::size_t i = 0; i < marks.size(); ++i) {
+    for (const auto i : each_index(marks)) {
       marks[i].x_mm += shift[2 * as_index(i)];
       marks[i].y_mm += shift[2 * as_index(i) + 1];
     }

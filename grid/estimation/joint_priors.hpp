@@ -4,11 +4,10 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/joint_problem.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -22,7 +21,7 @@ inline void add_weighted_rows(const JointProblem& joint, const VectorXd& weights
   MatrixXd design(joint.design().rows(), joint.design().cols());
   VectorXd response(joint.design().rows());
   Index rows = 0;
-  for (std::size_t u = 0; u < joint.units().size(); ++u) {
+  for (const auto u : each_index(joint.units())) {
     const double weight = weights[as_index(u)];
     if (weight == 0.0) continue;
     const SystemUnit& unit = joint.units()[u];
@@ -44,14 +43,14 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
   precision.head(unknowns.of_set) = set.stated_sigma.cwiseAbs2().cwiseInverse();
   precision.segment(unknowns.of_set, unknowns.scales)
       .setConstant(1.0 / (kScaleSigma * kScaleSigma));
-  std::vector<Index> of_noise;
+  Rows of_noise;
   for (const ObservationPart& part : set.parts) {
     const auto& columns = part.nuisance_columns;
     of_noise.insert(of_noise.end(), columns.end() - part.observation->nuisances_of_noise(),
                     columns.end());
   }
   MatrixXd rows = MatrixXd::Zero(std::ssize(of_noise), unknowns.total());
-  for (Index row = 0; row < rows.rows(); ++row) {
+  for (const Index row : each_below(rows.rows())) {
     const Index column = of_noise[as_size(row)];
     rows(row, column) = 1.0 / set.stated_sigma[column];
     precision[column] = 0.0;
@@ -62,11 +61,11 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
   auto of_machine = problem.prior_precision.topLeftCorner(parameters, parameters);
   // Zero if the mechanism starts at the stated values.
   VectorXd pull = VectorXd::Zero(parameters);
-  for (Index i = 0; i < parameters; ++i) {
+  for (const Index i : each_below(parameters)) {
     const auto& stated = set.mechanism->parameters()[as_size(i)].stated;
     if (stated) pull[i] = of_machine(i, i) * (*stated - set.mechanism->values()[i]);
   }
-  for (Index i = 0; i < joint.sure_design().rows(); ++i) {
+  for (const Index i : each_below(joint.sure_design().rows())) {
     const RowVectorXd row = joint.sure_design().row(i).head(parameters);
     of_machine += row.transpose() * row;
     pull += row.transpose() * joint.sure_response()[i];
@@ -79,12 +78,12 @@ inline void add_surface_prior(const JointProblem& joint, const VectorXd& weights
   const Unknowns& unknowns = joint.unknowns();
   const ObservedSubspace& observed = *joint.observed();
   problem.prior_precision.diagonal()
-      .segment(unknowns.polynomial(model::Side::left), 2 * unknowns.polynomials)
+      .segment(unknowns.polynomial(Side::left), 2 * unknowns.polynomials)
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: the same causes act on both surfaces.
-  problem.ridge = {unknowns.first_penalised_of(model::Side::left), 2 * unknowns.penalised};
+  problem.ridge = {unknowns.first_penalised_of(Side::left), 2 * unknowns.penalised};
   // The lambda at which the splines' penalty weighs as much as the data.
-  for (std::size_t u = 0; u < joint.units().size(); ++u) {
+  for (const auto u : each_index(joint.units())) {
     for (const observation::PlaceColumns& place : joint.units()[u].places) {
       const double square = observed.squares[as_index(place.place)];
       problem.ridge.balance += weights[as_index(u)] * square * place.by_chain.squaredNorm() /

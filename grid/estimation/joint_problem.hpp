@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
@@ -24,6 +23,7 @@
 #include "grid/estimation/unknowns.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "interp/measured_region.hpp"
 
@@ -74,7 +74,7 @@ class JointProblem {
     const std::vector<SurfaceCorrection> corrections = corrections_of(state);
     const auto mechanism = mechanism_at(state.settings);
     std::vector<ObservedFrom> from;
-    for (std::size_t k = 0; k < set_.parts.size(); ++k) {
+    for (const auto k : each_index(set_.parts)) {
       const bool about_none =
           is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
       from.push_back(
@@ -83,7 +83,7 @@ class JointProblem {
     }
     const auto system = estimation::linearise(set_, from);
     if (!system) return tl::unexpected(unreachable(system.error()));
-    std::vector<model::MarkPoint> marks;
+    std::vector<MarkPoint> marks;
     for (const SystemPlace& place : system->places)
       marks.push_back(corrections[place.observation].to_surface(place.state.mark));
     observe(std::move(marks));
@@ -98,7 +98,7 @@ class JointProblem {
 
   /// For each observation, with the state's surface. The state must outlive them.
   std::vector<SurfaceCorrection> corrections_of(const State& state) const {
-    const model::SheetPlacement first = sheet_at(state.settings, 0);
+    const SheetPlacement first = sheet_at(state.settings, 0);
     std::vector<SurfaceCorrection> corrections{SurfaceCorrection(state.surface)};
     for (std::size_t k = 1; k < set_.parts.size(); ++k)
       corrections.emplace_back(state.surface, first, sheet_at(state.settings, k));
@@ -113,11 +113,11 @@ class JointProblem {
     return set_.parts.front().sheet ? ObservationSet::sheet_column(1) : set_.parameters();
   }
   /// The mechanism and a sheet for deviations from what was stated.
-  std::shared_ptr<const model::Mechanism> mechanism_at(const VectorXd& deviations) const {
+  std::shared_ptr<const Mechanism> mechanism_at(const VectorXd& deviations) const {
     return set_.mechanism->with_values(set_.mechanism->values() +
                                        deviations.head(set_.parameters()));
   }
-  model::SheetPlacement sheet_at(const VectorXd& deviations, std::size_t observation) const {
+  SheetPlacement sheet_at(const VectorXd& deviations, std::size_t observation) const {
     const auto& sheet = set_.parts[observation].sheet;
     if (!sheet) return {};
     const Vector3d at = deviations.segment<3>(ObservationSet::sheet_column(*sheet));
@@ -137,23 +137,22 @@ class JointProblem {
   const MatrixXd& sure_design() const { return sure_design_; }
   const VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
-  const std::vector<Index>& rejected(std::size_t unit) const {
-    static const std::vector<Index> kNone;
+  const Rows& rejected(std::size_t unit) const {
+    static const Rows kNone;
     return rejected_.empty() ? kNone : rejected_.at(unit);
   }
   const RejectedReadings& rejected() const { return rejected_; }
   /// Counted rows minus the fit's effective parameters.
   double dof(const interp::PenalisedFit& fit) const {
     Index rows = 0;
-    for (std::size_t u = 0; u < units_.size(); ++u)
-      rows += without_readings(units_[u], rejected(u)).cols();
+    for (const auto u : each_index(units_)) rows += without_readings(units_[u], rejected(u)).cols();
     return as_double(rows) - fit.edf;
   }
 
   /// The local design for many readings under a surface; null if the dense one is as fast.
   const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, with a free sheet placed as its frame is defined.
-  const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
+  const std::vector<MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
   }
 
@@ -178,7 +177,7 @@ class JointProblem {
     const VectorXd all = coefficients(fit);
     State state = stated();
     state.settings = all.head(set_.setting_columns());
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       if (unknowns_.scales == 0) break;
       state.surface.scale[side] = all[unknowns_.scale(side)];
       if (!has_surface_) continue;
@@ -220,7 +219,7 @@ class JointProblem {
   }
 
   /// The part of the surface that the places observe; computed once if they are fixed.
-  void observe(std::vector<model::MarkPoint> places) {
+  void observe(std::vector<MarkPoint> places) {
     surface_marks_ = std::move(places);
     if (!has_surface_ || (observed_ && !places_move_)) return;
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
@@ -230,8 +229,8 @@ class JointProblem {
 
   /// e f + s at the state.
   Vector2d correction_at(std::size_t place, const SystemPlace& at, const State& state) const {
-    const model::ChainLengths own = at.state.reading.lengths;
-    const model::ChainLengths corrected =
+    const ChainLengths own = at.state.reading.lengths;
+    const ChainLengths corrected =
         state.surface.apply(surface_marks_[place], own, Matrix2d::Zero()).lengths;
     return difference(corrected, own);
   }
@@ -240,11 +239,11 @@ class JointProblem {
     MatrixXd design = MatrixXd::Zero(system.response.size(), unknowns_.total());
     VectorXd response = system.response;
     design.leftCols(unknowns_.of_set) = system.by_setting;
-    std::vector<Index> rows;
-    std::vector<Index> certain_rows;
-    const auto take = [&](const SystemUnit& unit, std::vector<Index>& list) {
+    Rows rows;
+    Rows certain_rows;
+    const auto take = [&](const SystemUnit& unit, Rows& list) {
       add_chain_columns(system, unit, state, design, response);
-      for (Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
+      for (const Index i : each_below(unit.rows)) list.push_back(unit.first_row + i);
     };
     units_ = system.units;
     for (SystemUnit& unit : units_) {
@@ -262,8 +261,8 @@ class JointProblem {
   /// Adds a chain's length and its surface at a place to rows, `by_chain` being their derivatives by
   /// the chain.
   template <class ByChain, class Rows>
-  void add_chain(std::size_t place, const SystemPlace& at, model::Side side,
-                 const ByChain& by_chain, Rows rows) const {
+  void add_chain(std::size_t place, const SystemPlace& at, Side side, const ByChain& by_chain,
+                 Rows rows) const {
     rows.col(unknowns_.scale(side)) += by_chain * at.state.reading.lengths[side];
     if (!has_surface_) return;
     const auto row = as_index(place);
@@ -278,7 +277,7 @@ class JointProblem {
                          MatrixXd& design, VectorXd& response) const {
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
-      for (const model::Side side : model::kSides) {
+      for (const Side side : kSides) {
         const VectorXd by_chain = place.by_chain.col(row_of(side));
         add_chain(place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
       }
@@ -298,7 +297,7 @@ class JointProblem {
         observation::lengths_by_setting(
             from.view, at.state.reading, at.state.mark,
             observation::settings_in(observation::columns_of(*part.observation)));
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       const Eigen::Matrix<double, 1, 1> one(1.0);
       add_chain(place, at, side, one, rows.middleRows<1>(row_of(side)));
     }
@@ -309,7 +308,7 @@ class JointProblem {
                                  const std::vector<ObservedFrom>& from, const State& state) {
     free_ = {};
     laid_marks_.clear();
-    for (std::size_t k = 0; k < set_.parts.size(); ++k) {
+    for (const auto k : each_index(set_.parts)) {
       const ObservationPart& part = set_.parts[k];
       PlacesOnSheet places;
       for (std::size_t i = 0; part.sheet && i < model::kSheetSettings.size(); ++i) {
@@ -320,7 +319,7 @@ class JointProblem {
       const Index rows = 2 * std::ssize(part.observation->places());
       places.by_unknown = MatrixXd::Zero(rows, unknowns_.total());
       places.moved = VectorXd::Zero(rows);
-      for (std::size_t p = 0; p < system.places.size(); ++p) {
+      for (const auto p : each_index(system.places)) {
         const SystemPlace& at = system.places[p];
         if (at.observation != k) continue;
         places.commanded.push_back(part.observation->places()[at.place].mark);
@@ -351,8 +350,8 @@ class JointProblem {
   bool places_move_ = false;
   interp::BsplineBasis basis_;
   std::optional<ObservedSubspace> observed_;
-  std::vector<model::MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
-  std::vector<std::vector<model::MarkPoint>> laid_marks_;
+  std::vector<MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
+  std::vector<std::vector<MarkPoint>> laid_marks_;
   std::vector<SystemUnit> units_;
   MatrixXd design_;
   VectorXd response_;

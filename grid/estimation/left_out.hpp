@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/joint_priors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -84,13 +84,13 @@ class LeftOut {
   /// prepare_all().
   std::vector<VectorXd> residuals(const UnitGroup& group) const {
     if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
-    std::vector<Index> rows;
+    Rows rows;
     std::vector<double> roots;
     for (const std::size_t unit : group) {
       const double weight = weights_[as_index(unit)];
       if (weight == 0.0) continue;
       const SystemUnit& own = problem_.units()[unit];
-      for (Index i = 0; i < own.rows; ++i) {
+      for (const Index i : each_below(own.rows)) {
         rows.push_back(own.first_row + i);
         roots.push_back(std::sqrt(weight));
       }
@@ -103,7 +103,7 @@ class LeftOut {
     const auto count = std::ssize(rows);
     const Eigen::Map<const VectorXd> root(roots.data(), count);
     VectorXd residual(count);
-    for (Index i = 0; i < count; ++i) {
+    for (const Index i : each_below(count)) {
       const Index row = rows[as_size(i)];
       residual[i] =
           root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
@@ -222,10 +222,10 @@ inline std::vector<Shift> shifts(const JointProblem& problem, const interp::Pena
   std::vector<Shift> all;
   const VectorXd residual = problem.response() - problem.design() * fit.coefficients;
   const FittedRows rows{problem.design(), residual, fit, problem.dof(fit)};
-  for (std::size_t u = 0; u < problem.units().size(); ++u) {
+  for (const auto u : each_index(problem.units())) {
     const SystemUnit& unit = problem.units()[u];
-    const std::vector<Index>& rejected = problem.rejected(u);
-    std::vector<Index> readings = rejected;
+    const Rows& rejected = problem.rejected(u);
+    Rows readings = rejected;
     if (!of_rejected) {
       readings = numbers_below<Index>(unit.by_reading.cols());
       std::erase_if(readings, [&](Index i) { return contains(rejected, i); });

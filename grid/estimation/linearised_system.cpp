@@ -12,7 +12,7 @@ using observation::Observation;
 void add_places(const ObservationSet& set, std::size_t number, const Linearisation& line,
                 LinearisedSystem& system) {
   const ObservationPart& part = set.parts[number];
-  for (std::size_t i = 0; i < line.places.size(); ++i) {
+  for (const auto i : each_index(line.places)) {
     const NumberedPlace& place = set.places[part.first_place + i];
     system.places.push_back({number, i, line.places[i], place.mark, place.order,
                              part.reads_chains() && part.observation->ordered(), set.stated.bed});
@@ -52,9 +52,8 @@ void add_units(const ObservationSet& set, std::size_t number, const Linearisatio
     if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
     const bool may_be_outlier = observation.may_be_outlier();
     auto& units = may_be_outlier ? system.units : system.certain;
-    for (Index k = 0; k < unit.rows; ++k) {
-      system.unit_of_row[as_size(unit.first_row + k)] =
-          may_be_outlier ? static_cast<int>(units.size()) : -1;
+    for (const Index k : each_below(unit.rows)) {
+      system.unit_of_row[as_size(unit.first_row + k)] = may_be_outlier ? as_int(units.size()) : -1;
     }
     units.push_back(std::move(unit));
   }
@@ -83,7 +82,7 @@ tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet&
   system.by_setting = MatrixXd::Zero(set.rows, set.stated_value.size());
   system.nuisances = set.nuisances();
   system.unit_of_row.resize(as_size(set.rows));
-  for (std::size_t k = 0; k < set.parts.size(); ++k) {
+  for (const auto k : each_index(set.parts)) {
     const Observation& observation = *set.parts[k].observation;
     const auto fail = [k](const observation::Unreachable& why) {
       return tl::unexpected(why.at(PlaceOfObservation{k, why.place}));

@@ -20,9 +20,9 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/observation_set.hpp"
 #include "grid/estimation/unit_whitening.hpp"
+#include "interp/eigen.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -67,10 +67,10 @@ struct SystemPlace {
   std::size_t observation = 0;
   std::size_t place = 0;  ///< into the observation's
   observation::ChainPlaceState state;
-  model::MarkPoint mark;  ///< as written, or as commanded
+  MarkPoint mark;  ///< as written, or as commanded
   int order = 0;
   bool ordered = false;  ///< lengths were read here, at this visit
-  model::Bed bed;        ///< of the machine at rest here
+  Bed bed;               ///< of the machine at rest here
   /// For a mechanism other than two chains: each length as read, and its angle at its anchor
   /// against the horizontal, 0 to pi / 2. Otherwise empty.
   std::vector<double> length_mm{};

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
 #include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "interp/reml.hpp"
 
@@ -31,35 +31,35 @@ class LocalDesign {
   /// `marks` are the places of all units, in the surface's frame.
   LocalDesign(const MatrixXd& design, const std::vector<SystemUnit>& units,
               const Unknowns& unknowns, const ObservedSubspace& observed,
-              const interp::BsplineBasis& basis, const std::vector<model::MarkPoint>& marks)
+              const interp::BsplineBasis& basis, const std::vector<MarkPoint>& marks)
       : units_(units), rows_(as_size(design.rows())) {
     const Index penalised = observed.penalised.cols();
-    const Index first_bend = unknowns.first_penalised_of(model::Side::left);
+    const Index first_bend = unknowns.first_penalised_of(Side::left);
     const Index plain = unknowns.total() - 2 * penalised;
-    const auto splines = [&](model::Side side) { return plain + row_of(side) * basis.size(); };
+    const auto splines = [&](Side side) { return plain + row_of(side) * basis.size(); };
     to_unknowns_ = MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
-    std::vector<Index> columns;
-    for (Index k = 0; k < unknowns.total(); ++k) {
+    ColumnSet columns;
+    for (const Index k : each_below(unknowns.total())) {
       if (k >= first_bend && k < first_bend + 2 * penalised) continue;
       to_unknowns_(std::ssize(columns), k) = 1.0;
       columns.push_back(k);
     }
-    for (const model::Side side : model::kSides) {
+    for (const Side side : kSides) {
       to_unknowns_.block(splines(side), unknowns.first_penalised_of(side), basis.size(),
                          penalised) = observed.penalised;
     }
-    for (Index k = 0; k < plain; ++k) {
+    for (const Index k : each_below(plain)) {
       const auto column = design.col(columns[as_size(k)]);
-      for (Index row = 0; row < design.rows(); ++row) {
+      for (const Index row : each_below(design.rows())) {
         if (column[row] != 0.0) rows_[as_size(row)].emplace_back(k, column[row]);
       }
     }
     for (const SystemUnit& unit : units) {
       for (const observation::PlaceColumns& place : unit.places) {
         const interp::BasisSupport at = basis.at(marks[place.place].x_mm, marks[place.place].y_mm);
-        for (Index i = 0; i < unit.rows; ++i) {
+        for (const Index i : each_below(unit.rows)) {
           auto& row = rows_[as_size(unit.first_row + i)];
-          for (const model::Side side : model::kSides) {
+          for (const Side side : kSides) {
             const double by_chain = place.by_chain(i, row_of(side));
             for (std::size_t k = 0; by_chain != 0.0 && k < at.index.size(); ++k)
               row.emplace_back(splines(side) + at.index[k], by_chain * at.value[k]);
@@ -78,17 +78,17 @@ class LocalDesign {
     const auto [size, unknowns] = std::pair(to_unknowns_.rows(), to_unknowns_.cols());
     MatrixXd gram = MatrixXd::Zero(size + 1, size + 1);
     Index count = 0;
-    for (std::size_t u = 0; u < units_.size(); ++u) {
+    for (const auto u : each_index(units_)) {
       const double weight = weights[as_index(u)];
       if (weight == 0.0) continue;
       count += units_[u].rows;
-      for (Index i = 0; i < units_[u].rows; ++i) {
+      for (const Index i : each_below(units_[u].rows)) {
         const Index at = units_[u].first_row + i;
         std::vector<Entry> row = rows_[as_size(at)];
         row.emplace_back(size, response[at]);
         // Columns rise along a row except where two places meet: entries above the diagonal are added
         // below it.
-        for (std::size_t a = 0; a < row.size(); ++a) {
+        for (const auto a : each_index(row)) {
           const double value = weight * row[a].second;
           for (std::size_t b = 0; b <= a; ++b) {
             const auto [low, high] = std::minmax(row[a].first, row[b].first);
@@ -112,7 +112,7 @@ class LocalDesign {
     result.reserve(units_.size());
     for (const SystemUnit& unit : units_) {
       MatrixXd spread(unit.rows, unit.rows);
-      for (Index i = 0; i < unit.rows; ++i) {
+      for (const Index i : each_below(unit.rows)) {
         for (Index j = 0; j <= i; ++j) {
           double sum = 0.0;
           for (const auto& [a, left] : rows_[as_size(unit.first_row + j)]) {

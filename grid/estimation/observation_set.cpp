@@ -52,12 +52,12 @@ void add_columns(ObservationSet& set) {
   set.stated_value = VectorXd::Zero(columns);
   set.stated_sigma = VectorXd::Zero(columns);
   set.stated_value.head(parameters) = set.mechanism->values();
-  for (Index k = 0; k < parameters; ++k) {
+  for (const Index k : each_below(parameters)) {
     set.stated_sigma(k) = set.mechanism->parameters()[as_size(k)].prior_sigma.value_or(kInfinity);
   }
   for (const ObservationPart& part : set.parts) {
     for (const Index column : part.zero_columns) set.stated_sigma(column) = kSessionZeroSigmaMm;
-    for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
+    for (const auto q : each_index(part.nuisance_columns)) {
       set.stated_sigma(part.nuisance_columns[q]) = part.observation->nuisance_sigma()(as_index(q));
     }
     if (!part.sheet) continue;
@@ -69,13 +69,13 @@ void add_columns(ObservationSet& set) {
 
 }  // namespace
 
-ObservationSet observation_set(model::Machine stated, const observation::Observations& observations,
-                               std::shared_ptr<const model::Mechanism> mechanism) {
+ObservationSet observation_set(Machine stated, const observation::Observations& observations,
+                               std::shared_ptr<const Mechanism> mechanism) {
   ObservationSet set;
   const bool chains = mechanism == nullptr;
   set.mechanism = chains ? model::make_chain_mechanism(stated) : std::move(mechanism);
   set.stated = std::move(stated);
-  if (chains) set.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  if (chains) set.settings.assign(kMachineSettings.begin(), kMachineSettings.end());
   for (const auto& observation : observations) {
     ObservationPart part;
     if (observation->sheet()) {
@@ -111,7 +111,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
     const Index more = std::max<Index>(sigma.size() - known, 0);
     const Index columns = other.stated_sigma.size();
     part.nuisance_columns.resize(as_size(std::min(known, sigma.size())));
-    for (Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
+    for (const Index q : each_below(more)) part.nuisance_columns.push_back(columns + q);
     other.stated_value.conservativeResizeLike(VectorXd::Zero(columns + more));
     other.stated_sigma.conservativeResize(columns + more);
     other.stated_sigma.tail(more) = sigma.tail(more);
@@ -122,7 +122,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
 }
 
 MachineState stated_state(const ObservationSet& set) {
-  return {set.stated, std::vector<model::SheetPlacement>(set.sheets),
+  return {set.stated, std::vector<SheetPlacement>(set.sheets),
           set.is_of_chains() ? nullptr : set.mechanism};
 }
 
@@ -133,11 +133,11 @@ VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
     values.head(set.parameters()) = state.mechanism->values();
     return values;
   }
-  for (Index k = 0; k < kMachineSettingCount; ++k) {
+  for (const Index k : each_below(kMachineSettingCount)) {
     values(k) = model::stated_value(state.machine, set.settings[as_size(k)]);
   }
-  for (std::size_t i = 0; i < set.sheets; ++i) {
-    const model::SheetPlacement& sheet = state.sheets[i];
+  for (const std::size_t i : each_below(set.sheets)) {
+    const SheetPlacement& sheet = state.sheets[i];
     values.segment<3>(ObservationSet::sheet_column(i)) << sheet.x_mm, sheet.y_mm,
         sheet.rotation_rad;
   }
@@ -149,11 +149,11 @@ MachineState with_settings(const ObservationSet& set, MachineState state, const 
     state.mechanism = state.mechanism->with_values(values.head(set.parameters()));
     return state;
   }
-  for (Index k = 0; k < kMachineSettingCount; ++k) {
+  for (const Index k : each_below(kMachineSettingCount)) {
     state.machine =
         model::with_setting(std::move(state.machine), set.settings[as_size(k)], values(k));
   }
-  for (std::size_t i = 0; i < set.sheets; ++i) {
+  for (const std::size_t i : each_below(set.sheets)) {
     const Index at = ObservationSet::sheet_column(i);
     state.sheets[i] = {values(at), values(at + 1), values(at + 2)};
   }

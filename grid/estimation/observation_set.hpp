@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/reading_model.hpp"
 
@@ -41,7 +41,7 @@ inline constexpr double kKnownSigma = 1e-7;
 inline constexpr double kSessionZeroSigmaMm = 3.0;
 
 /// Settings of the machine: the first columns.
-inline constexpr auto kMachineSettingCount = std::ssize(model::kMachineSettings);
+inline constexpr auto kMachineSettingCount = std::ssize(kMachineSettings);
 
 /// An observation's share of the rows, places, units and columns.
 struct ObservationPart {
@@ -49,19 +49,19 @@ struct ObservationPart {
   Index first_row = 0;
   std::size_t first_place = 0;
   std::size_t first_unit = 0;
-  std::optional<std::size_t> sheet;     ///< which of the set's; none: the bed's frame
-  std::vector<Index> nuisance_columns;  ///< among all columns
+  std::optional<std::size_t> sheet;  ///< which of the set's; none: the bed's frame
+  ColumnSet nuisance_columns;        ///< among all columns
   /// Columns of the zeros of this session minus the machine's; empty for the session that defines
   /// the machine's.
-  std::vector<Index> zero_columns{};
+  ColumnSet zero_columns{};
   bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
 struct NumberedPlace {
   std::size_t part = 0;
   std::size_t index = 0;  ///< into the points, or the holes, of all files in their order
-  model::MarkPoint mark;
-  model::ChainLengths lengths;
+  MarkPoint mark;
+  ChainLengths lengths;
   int order = 0;
 };
 
@@ -78,14 +78,14 @@ template <class What>
 std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const ObservationSet& set);
 
 struct ObservationSet {
-  model::Machine stated;
+  Machine stated;
   /// The mechanism: two chains of `stated`, or another one, which `stated` does not describe.
-  std::shared_ptr<const model::Mechanism> mechanism;
+  std::shared_ptr<const Mechanism> mechanism;
   std::vector<ObservationPart> parts;
   std::vector<NumberedPlace> places;
   std::vector<NumberedUnit> units;
   /// For two chains, those of a sheet once for each; empty for another mechanism.
-  std::vector<model::Setting> settings;
+  std::vector<Setting> settings;
   std::size_t sheets = 0;
   std::size_t own_zeros = 0;  ///< sessions whose chain zeros are their own
   VectorXd stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
@@ -132,7 +132,7 @@ struct ObservationSet {
     if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
     return any_of(parts, [&](const ObservationPart& part) {
       return part.sheet && part.observation->sheet() &&
-             (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
+             (column - kMachineSettings.size()) / 3 == *part.sheet &&
              part.observation->sheet()->knows(settings[column]);
     });
   }
@@ -143,9 +143,9 @@ struct ObservationSet {
   }
 
   /// Columns of an observation's own settings, as observation::columns_of() has them.
-  std::vector<Index> columns_of(const ObservationPart& part) const {
-    std::vector<Index> columns;
-    for (Index k = 0; k < parameters(); ++k) columns.push_back(k);
+  ColumnSet columns_of(const ObservationPart& part) const {
+    ColumnSet columns;
+    for (const Index k : each_below(parameters())) columns.push_back(k);
     // Follow-up readings may be in the frame of a sheet that they do not depend on.
     const bool has_sheet = part.sheet && part.observation->sheet();
     for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
@@ -167,8 +167,8 @@ struct ObservationSet {
 
 /// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
 /// \throws std::invalid_argument for a sheet under a mechanism other than two chains.
-ObservationSet observation_set(model::Machine stated, const observation::Observations& observations,
-                               std::shared_ptr<const model::Mechanism> mechanism = nullptr);
+ObservationSet observation_set(Machine stated, const observation::Observations& observations,
+                               std::shared_ptr<const Mechanism> mechanism = nullptr);
 
 /// The machine with other observations, each in the frame (sheet and nuisances) of one of the set's
 /// parts; additional nuisances come after all columns.
@@ -192,17 +192,17 @@ std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const Obser
 
 /// Values of a machine's settings and of each sheet's placement.
 struct MachineState {
-  model::Machine machine;
-  std::vector<model::SheetPlacement> sheets;
+  Machine machine;
+  std::vector<SheetPlacement> sheets;
   /// For a mechanism other than two chains; then `machine` is unused.
-  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
-  model::SheetPlacement sheet_of(const ObservationPart& part) const {
-    return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
+  std::shared_ptr<const Mechanism> mechanism = nullptr;
+  SheetPlacement sheet_of(const ObservationPart& part) const {
+    return part.sheet ? sheets.at(*part.sheet) : SheetPlacement{};
   }
 
   observation::View view(const ObservationPart& part) const {
     if (mechanism) return {mechanism, sheet_of(part)};
-    return {model::ReadingModel(machine), sheet_of(part)};
+    return {ReadingModel(machine), sheet_of(part)};
   }
 };
 MachineState stated_state(const ObservationSet& set);

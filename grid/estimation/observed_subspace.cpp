@@ -16,15 +16,14 @@ MatrixXd bending_root(const MatrixXd& penalty, const MatrixXd& polynomials) {
   MatrixXd bent = penalty;
   linear::add_outer(bent, scale, orthonormal);
   MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();
-  linear::add_product(root, -1.0, orthonormal,
-                      linear::product(linear::transposed(orthonormal), root));
+  linear::add_product(root, -1.0, orthonormal, linear::inner(orthonormal, root));
   return root;
 }
 
 }  // namespace
 
 ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
-                                   const std::vector<model::MarkPoint>& marks)
+                                   const std::vector<MarkPoint>& marks)
     : polynomials(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = std::ssize(marks);
   const Index size = basis.size();
@@ -34,10 +33,10 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bendin
   penalised_rows = MatrixXd::Zero(points, size);
   polynomial_rows = MatrixXd::Zero(points, polynomials.cols());
   squares = VectorXd::Zero(points);
-  for (Index i = 0; i < points; ++i) {
-    const model::MarkPoint mark = marks[as_size(i)];
+  for (const Index i : each_below(points)) {
+    const MarkPoint mark = marks[as_size(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
-    for (std::size_t k = 0; k < support.index.size(); ++k) {
+    for (const auto k : each_index(support.index)) {
       penalised_rows.row(i) += support.value[k] * root.row(support.index[k]);
       polynomial_rows.row(i) += support.value[k] * polynomials.row(support.index[k]);
       squares[i] += support.value[k] * support.value[k];

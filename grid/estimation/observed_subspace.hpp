@@ -20,15 +20,15 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "interp/bspline_basis.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
 
 struct ObservedSubspace {
   ObservedSubspace(const interp::BsplineBasis& basis, int bending_order,
-                   const std::vector<model::MarkPoint>& marks);
+                   const std::vector<MarkPoint>& marks);
 
   MatrixXd polynomials;        ///< F
   MatrixXd penalised;          ///< B

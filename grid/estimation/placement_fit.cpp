@@ -5,8 +5,8 @@
 
 namespace chaintrue::grid::estimation {
 
-model::SheetPlacement fit_placement(const LinearisedAt& linearised,
-                                    const std::optional<observation::SheetPrior>& prior) {
+SheetPlacement fit_placement(const LinearisedAt& linearised,
+                             const std::optional<observation::SheetPrior>& prior) {
   Vector3d precision = Vector3d::Zero();
   if (prior) precision = prior->sigma().cwiseAbs2().cwiseInverse();
   Vector3d at = Vector3d::Zero();

@@ -15,8 +15,8 @@
 #include <functional>
 #include <optional>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -37,11 +37,11 @@ struct PlacementNormal {
 
 /// Adds the readings to the equations about a placement; false if the machine has no pose, which
 /// ends the search.
-using LinearisedAt = std::function<bool(const model::SheetPlacement&, PlacementNormal&)>;
+using LinearisedAt = std::function<bool(const SheetPlacement&, PlacementNormal&)>;
 
 /// Eight steps from the identity: a shift of 50 mm and a turn of 0.03 rad converge in four. Without a
 /// prior the readings must determine all three unknowns.
-model::SheetPlacement fit_placement(const LinearisedAt& linearised,
-                                    const std::optional<observation::SheetPrior>& prior = {});
+SheetPlacement fit_placement(const LinearisedAt& linearised,
+                             const std::optional<observation::SheetPrior>& prior = {});
 
 }  // namespace chaintrue::grid::estimation

@@ -23,14 +23,14 @@ double deleted_deviate(double r, double kept, double s2, double dof) {
   return normal_deviate(r / std::sqrt(left * kept), dof - 1.0);
 }
 
-MatrixXd without_readings(const SystemUnit& unit, const std::vector<Index>& rejected) {
+MatrixXd without_readings(const SystemUnit& unit, const Rows& rejected) {
   if (rejected.empty()) return MatrixXd::Identity(unit.rows, unit.rows);
   return linear::range_of(unit.by_reading(Eigen::all, rejected)).rest;
 }
 
-ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit,
-                      const std::vector<Index>& rejected, Index reading) {
-  std::vector<Index> others = rejected;
+ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit, const Rows& rejected,
+                      Index reading) {
+  Rows others = rejected;
   const bool counts = std::erase(others, reading) == 0;
   const MatrixXd basis = without_readings(unit, others);
   const VectorXd d = basis.transpose() * unit.by_reading.col(reading);

@@ -24,17 +24,17 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/linearised_system.hpp"
+#include "interp/eigen.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::grid::estimation {
 
 /// For each unit, the readings that are rejected.
-using RejectedReadings = std::vector<std::vector<Index>>;
+using RejectedReadings = std::vector<Rows>;
 
 /// N of these readings of a unit: rows x what they leave.
-[[nodiscard]] MatrixXd without_readings(const SystemUnit& unit, const std::vector<Index>& rejected);
+[[nodiscard]] MatrixXd without_readings(const SystemUnit& unit, const Rows& rejected);
 
 /// If less than this share of its weight remains, no other reading determines it.
 inline constexpr double kOwnWord = 1e-6;
@@ -57,7 +57,7 @@ struct FittedRows {
   double dof = 0.0;  ///< n
 };
 
-ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit,
-                      const std::vector<Index>& rejected, Index reading);
+ReadingShift shift_of(const FittedRows& rows, const SystemUnit& unit, const Rows& rejected,
+                      Index reading);
 
 }  // namespace chaintrue::grid::estimation

@@ -3,13 +3,10 @@
 
 namespace chaintrue::grid {
 
-using model::Side;
-
-ResidualSurface::Corrected ResidualSurface::apply(model::MarkPoint mark,
-                                                  model::ChainLengths lengths,
+ResidualSurface::Corrected ResidualSurface::apply(MarkPoint mark, ChainLengths lengths,
                                                   const Matrix2d& mark_jacobian) const {
   Corrected result;
-  for (const Side side : model::kSides) {
+  for (const Side side : kSides) {
     const Index row = row_of(side);
     const auto own = basis.evaluate(coefficients[side], mark.x_mm, mark.y_mm);
     result.lengths[side] = lengths[side] * (1.0 + scale[side]) + own.value;

@@ -16,9 +16,9 @@
 /// Order of the coefficients: settings, e_left, e_right, s_left, s_right (FitColumns).
 #pragma once
 
-#include "grid/chain_rows.hpp"
-#include "grid/eigen.hpp"
+#include "grid/plane_vectors.hpp"
 #include "interp/bspline_basis.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/reading_model.hpp"
 
@@ -28,24 +28,23 @@ namespace chaintrue::grid {
 struct FitColumns {
   Index settings = 0;  ///< how many settings there are
   Index basis = 0;     ///< coefficients of one spline
-  Index scale(model::Side side) const { return settings + row_of(side); }
-  Index spline(model::Side side) const { return settings + 2 + row_of(side) * basis; }
+  Index scale(Side side) const { return settings + row_of(side); }
+  Index spline(Side side) const { return settings + 2 + row_of(side) * basis; }
   Index total() const { return settings + 2 + 2 * basis; }
 };
 
 /// Immutable, thread safe.
 struct ResidualSurface {
   interp::BsplineBasis basis;
-  model::PerSide<double> scale;
-  model::PerSide<VectorXd> coefficients;
+  PerSide<double> scale;
+  PerSide<VectorXd> coefficients;
 
   /// The corrected lengths and d(lengths)/d(mark), from the model's own at the same mark.
   struct Corrected {
-    model::ChainLengths lengths;
+    ChainLengths lengths;
     Matrix2d mark_jacobian;
   };
-  Corrected apply(model::MarkPoint mark, model::ChainLengths lengths,
-                  const Matrix2d& mark_jacobian) const;
+  Corrected apply(MarkPoint mark, ChainLengths lengths, const Matrix2d& mark_jacobian) const;
 };
 
 }  // namespace chaintrue::grid

@@ -3,16 +3,13 @@
 
 #include <tuple>
 
-#include "grid/containers.hpp"
-
 namespace chaintrue::grid {
 namespace {
 
 /// Cuts `order` into `parts` runs of nearly equal length.
-std::vector<std::vector<std::size_t>> cut(const std::vector<std::size_t>& order,
-                                          std::size_t parts) {
-  std::vector<std::vector<std::size_t>> runs;
-  for (std::size_t part = 0; part < parts; ++part) {
+std::vector<Indices> cut(const Indices& order, std::size_t parts) {
+  std::vector<Indices> runs;
+  for (const std::size_t part : each_below(parts)) {
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(part * order.size() / parts);
     const auto last =
         order.begin() + static_cast<std::ptrdiff_t>((part + 1) * order.size() / parts);
@@ -23,7 +20,7 @@ std::vector<std::vector<std::size_t>> cut(const std::vector<std::size_t>& order,
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoint>& points) {
+std::vector<Indices> spatial_blocks(const std::vector<LengthPoint>& points) {
   auto order = numbers_below(points.size());
   const auto by_x = [&](std::size_t i) {
     return std::tuple(points[i].mark.x_mm, points[i].mark.y_mm, points[i].lengths.left_mm);
@@ -32,7 +29,7 @@ std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoi
     return std::tuple(points[i].mark.y_mm, points[i].mark.x_mm, points[i].lengths.left_mm);
   };
   sort(order, ascending(by_x));
-  std::vector<std::vector<std::size_t>> blocks;
+  std::vector<Indices> blocks;
   for (auto& column : cut(order, 4)) {
     sort(column, ascending(by_y));
     for (auto& block : cut(column, 2)) {

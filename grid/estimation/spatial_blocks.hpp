@@ -4,15 +4,15 @@
 /// small.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
 
 /// Indices into `points`, about eight blocks: four columns by the points' x, each split in two by
 /// its points' y. Each block is ascending; together they hold every point once.
-std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoint>& points);
+std::vector<Indices> spatial_blocks(const std::vector<LengthPoint>& points);
 
 }  // namespace chaintrue::grid

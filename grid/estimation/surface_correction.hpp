@@ -6,9 +6,9 @@
 
 #include <optional>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -19,12 +19,11 @@ class SurfaceCorrection final : public observation::LengthCorrection {
   /// For marks in the surface's frame.
   explicit SurfaceCorrection(const ResidualSurface& surface) : surface_(surface) {}
   /// For marks on a sheet other than the surface's.
-  SurfaceCorrection(const ResidualSurface& surface, model::SheetPlacement surface_sheet,
-                    model::SheetPlacement own_sheet)
+  SurfaceCorrection(const ResidualSurface& surface, SheetPlacement surface_sheet,
+                    SheetPlacement own_sheet)
       : surface_(surface), sheets_(Sheets{surface_sheet, own_sheet}) {}
 
-  At at(model::MarkPoint mark, model::ChainLengths lengths,
-        const Matrix2d& by_mark) const override {
+  At at(MarkPoint mark, ChainLengths lengths, const Matrix2d& by_mark) const override {
     const auto corrected = surface_.apply(to_surface(mark), lengths, Matrix2d::Zero());
     const Vector2d by_length(1.0 + surface_.scale.left, 1.0 + surface_.scale.right);
     Matrix2d gradient = corrected.mark_jacobian;
@@ -32,14 +31,14 @@ class SurfaceCorrection final : public observation::LengthCorrection {
     return {corrected.lengths, by_length.asDiagonal() * by_mark + gradient, by_length};
   }
   /// The same place in the surface's frame.
-  model::MarkPoint to_surface(model::MarkPoint mark) const {
+  MarkPoint to_surface(MarkPoint mark) const {
     return sheets_ ? sheets_->surface.to_mark(sheets_->own.to_bed(mark)) : mark;
   }
 
  private:
   struct Sheets {
-    model::SheetPlacement surface;
-    model::SheetPlacement own;
+    SheetPlacement surface;
+    SheetPlacement own;
   };
   const ResidualSurface& surface_;
   std::optional<Sheets> sheets_;

@@ -7,7 +7,7 @@
 /// for readings with covariance C. Source: G. Golub and C. Van Loan, Matrix Computations (2013), section 6.1.
 #pragma once
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::estimation {
 

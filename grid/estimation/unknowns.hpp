@@ -10,8 +10,8 @@
 /// Private to grid/estimation.
 #pragma once
 
-#include "grid/chain_rows.hpp"
-#include "grid/eigen.hpp"
+#include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -21,9 +21,9 @@ struct Unknowns {
   Index polynomials = 0;  ///< of each chain's surface
   Index penalised = 0;    ///< of each chain's surface
 
-  Index scale(model::Side side) const { return of_set + row_of(side); }
-  Index polynomial(model::Side side) const { return of_set + scales + row_of(side) * polynomials; }
-  Index first_penalised_of(model::Side side) const {
+  Index scale(Side side) const { return of_set + row_of(side); }
+  Index polynomial(Side side) const { return of_set + scales + row_of(side) * polynomials; }
+  Index first_penalised_of(Side side) const {
     return of_set + scales + 2 * polynomials + row_of(side) * penalised;
   }
   Index total() const { return of_set + scales + 2 * (polynomials + penalised); }

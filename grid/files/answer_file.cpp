@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/answer_file.hpp"
 
-#include "grid/eigen.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/files/records.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {

@@ -5,9 +5,9 @@
 
 #include "grid/belts/belt_holes.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/record_values.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

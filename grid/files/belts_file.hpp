@@ -40,7 +40,6 @@
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
-#include "grid/belts/point_indices.hpp"
 #include "grid/files/input_error.hpp"
 
 namespace chaintrue::grid::files {

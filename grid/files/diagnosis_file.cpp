@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

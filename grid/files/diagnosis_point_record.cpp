@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Places on the bed in a chaintrue_diagnosis file: the points as the pictures show them, what to
 // measure next, and what a drawing or the belts show.
-#include "grid/eigen.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

@@ -10,9 +10,9 @@
 #include <map>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_checks.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::files {

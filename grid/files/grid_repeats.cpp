@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/files/grid_checks.hpp"
+#include "interp/eigen.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::grid::files {

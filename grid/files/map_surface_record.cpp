@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/eigen.hpp"
 #include "grid/files/records.hpp"
+#include "interp/eigen.hpp"
 
 #include <fmt/format.h>
 

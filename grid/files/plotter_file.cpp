@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "grid/eigen.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/records.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::files {

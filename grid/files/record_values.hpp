@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {

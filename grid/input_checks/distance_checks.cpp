@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/transformation_search.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -30,11 +30,11 @@ constexpr double kOddDistances = 25.0;
 constexpr double kStrangeDistancesMm = 60.0;
 
 RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
-  const model::BedPoint from = set.holes[distance.from].commanded;
+  const BedPoint from = set.holes[distance.from].commanded;
   RowVectorXd basis = RowVectorXd::Zero(kDistanceBasis);
   basis[6] = 1.0;
   if (!distance.edge) {
-    const model::BedPoint to = set.holes[distance.to].commanded;
+    const BedPoint to = set.holes[distance.to].commanded;
     const Vector2d way = difference(to, from);
     const double length = std::max(1.0, way.norm());
     basis.segment<3>(3) << way.x() * way.x(), way.y() * way.y(), way.x() * way.y();
@@ -60,7 +60,7 @@ VectorXd distance_sigmas(const MeasuredHoles& set) {
 TrendRows distance_rows(const MeasuredHoles& set) {
   const auto n = as_index(set.distances.size());
   TrendRows rows{MatrixXd(n, kDistanceBasis), MatrixXd(n, 1)};
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : each_below(n)) {
     const HoleDistance& distance = set.distances[as_size(i)];
     rows.basis.row(i) = basis_of(set, distance);
     rows.off_mm(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
@@ -82,7 +82,7 @@ Transformation& add_of_holes(HoleTransformations& list, ProblemKind kind, std::s
 }
 
 /// Where a hole was commanded, by what its numbers mean.
-using MeantPlace = std::function<model::BedPoint(model::BedPoint)>;
+using MeantPlace = std::function<BedPoint(BedPoint)>;
 
 void add_of_commands(HoleTransformations& list, ProblemKind kind, std::string sentence,
                      const MeantPlace& meant) {
@@ -105,8 +105,8 @@ void add_units(HoleTransformations& list, Written written) {
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
                     unit.word, factor),
-        [=](model::BedPoint p) {
-          return model::BedPoint{p.x_mm * factor, p.y_mm * factor};
+        [=](BedPoint p) {
+          return BedPoint{p.x_mm * factor, p.y_mm * factor};
         });
   }
 }
@@ -115,7 +115,6 @@ void add_axes(HoleTransformations& list) {
   const auto add = [&](const char* sentence, const MeantPlace& meant) {
     add_of_commands(list, ProblemKind::axes, sentence, meant);
   };
-  using model::BedPoint;
   add("the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
       "counts to the right",
       [](BedPoint p) {
@@ -138,18 +137,17 @@ void add_axes(HoleTransformations& list) {
 }
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
-void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross,
-               HoleTransformations& list) {
-  for (std::size_t h = 0; h < set.holes.size(); ++h) {
+void add_holes(const MeasuredHoles& set, const Flags& is_gross, HoleTransformations& list) {
+  for (const auto h : each_index(set.holes)) {
     std::size_t of_it = 0;
-    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+    for (const auto i : each_index(set.distances)) {
       const HoleDistance& distance = set.distances[i];
       const bool ends = distance.from == h || (!distance.edge && distance.to == h);
       of_it += is_gross[i] && ends ? 1 : 0;
     }
     if (of_it < 2) continue;
     const std::string& name = set.holes[h].name;
-    const auto number = [&](const char* axis, double model::BedPoint::*of) {
+    const auto number = [&](const char* axis, double BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
         add_of_holes(list, ProblemKind::doubtful_row,
@@ -159,14 +157,14 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross,
             .penalty = slip.penalty;
       }
     };
-    number("x_mm", &model::BedPoint::x_mm);
-    number("y_mm", &model::BedPoint::y_mm);
+    number("x_mm", &BedPoint::x_mm);
+    number("y_mm", &BedPoint::y_mm);
     add_of_holes(list, ProblemKind::doubtful_row,
                  fmt::format("are x_mm and y_mm of hole {} swapped?", name),
                  [=](MeasuredHoles& meant) {
                    std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
                  });
-    for (std::size_t other = 0; other < h; ++other) {
+    for (const std::size_t other : each_below(h)) {
       add_of_holes(list, ProblemKind::other_order,
                    fmt::format("holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
@@ -248,7 +246,7 @@ struct DistanceRows {
       }
       return;
     }
-    for (std::size_t h = 0; h < set.holes.size(); ++h) {
+    for (const auto h : each_index(set.holes)) {
       if (h == written.from || h == written.to) continue;
       for (const auto& [from, to] : {std::pair(written.from, h), std::pair(h, written.to)}) {
         HoleDistance meant = written;
@@ -261,7 +259,7 @@ struct DistanceRows {
 
   std::vector<RowFinding> findings() const {
     std::vector<RowFinding> found;
-    for (std::size_t row = 0; row < set.distances.size(); ++row) {
+    for (const auto row : each_index(set.distances)) {
       if (!is_gross(row)) continue;
       const std::string question = question_of(row);
       if (question.empty()) continue;
@@ -281,8 +279,8 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   const VectorXd sigma_mm = distance_sigmas(set);
   const RobustTrend trend = robust_trend(written_rows, sigma_mm);
   const DistanceRows rows{set, trend};
-  std::vector<bool> is_gross;
-  for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
+  Flags is_gross;
+  for (const auto i : each_index(set.distances)) is_gross.push_back(rows.is_gross(i));
   const double median_mm = trend.median_residual_mm();
   const bool is_odd =
       trend.prior_chi_square > kOddDistances || median_mm > kSoundMm || contains(is_gross, true);

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::input_checks {
 namespace {
 
@@ -56,13 +58,13 @@ void add_digit_errors(const std::string& text, Slips& slips) {
     std::swap(exchanged[i], exchanged[j]);
     slips.add_digits(exchanged, kExchanged);
   }
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (const auto i : each_index(text)) {
     if (!is_digit(text[i]) || text.size() < 2) continue;
     std::string without = text;
     without.erase(i, 1);
     slips.add_digits(without, kDoubled);
   }
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (const auto i : each_index(text)) {
     if (!is_digit(text[i])) continue;
     for (char c = '0'; c <= '9'; ++c) {
       std::string other = text;

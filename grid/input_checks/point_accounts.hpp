@@ -12,16 +12,16 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/input_checks/robust_trend.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::grid::input_checks {
 
-using Place = std::optional<model::BedPoint>;
+using Place = std::optional<BedPoint>;
 
 /// Points with the places where the stated machine puts their readings.
 struct PlacedPoints {
@@ -42,7 +42,7 @@ class PointAccounts {
 
   /// The tool's position by its lengths or its command; empty if no pose has them.
   Place place_of(const MeasuredPoint& point) const {
-    model::ChainLengths lengths;
+    ChainLengths lengths;
     if (point.lengths) {
       lengths = *point.lengths;
     } else {
@@ -59,7 +59,7 @@ class PointAccounts {
   }
 
   /// True if the stated machine can hold the sled there.
-  bool can_hold(model::MarkPoint mark) const {
+  bool can_hold(MarkPoint mark) const {
     return kinematics_->inverse(model::identity_placement(mark)).has_value();
   }
 
@@ -75,7 +75,7 @@ class PointAccounts {
     const auto n = as_index(points.size());
     TrendRows rows{MatrixXd::Zero(n, kPointBasis),
                    MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
-    for (Index i = 0; i < n; ++i) {
+    for (const Index i : each_below(n)) {
       const auto k = as_size(i);
       if (!places[k]) continue;
       rows.basis.row(i) = basis_at(*places[k]);
@@ -102,7 +102,7 @@ class PointAccounts {
   }
 
   /// Residual of a mark at a place from a trend.
-  Vector2d off(const RobustTrend& trend, model::MarkPoint mark, model::BedPoint place) const {
+  Vector2d off(const RobustTrend& trend, MarkPoint mark, BedPoint place) const {
     return difference(mark, place) - (basis_at(place) * trend.coefficients).transpose();
   }
 
@@ -121,7 +121,7 @@ class PointAccounts {
     return sigma;
   }
 
-  RowVectorXd basis_at(model::BedPoint place) const {
+  RowVectorXd basis_at(BedPoint place) const {
     // Wrong lengths may end anywhere: the second-degree trend is kept constant beyond the bed.
     const double u = std::clamp(place.x_mm / half_width_mm_, -1.5, 1.5);
     const double v = std::clamp(place.y_mm / half_height_mm_, -1.5, 1.5);
@@ -130,7 +130,7 @@ class PointAccounts {
     return basis;
   }
 
-  model::ChainLengths zero_;
+  ChainLengths zero_;
   double half_width_mm_;
   double half_height_mm_;
   VectorXd prior_sigma_mm_;

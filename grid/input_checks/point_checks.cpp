@@ -11,13 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_accounts.hpp"
 #include "grid/input_checks/whole_checks.hpp"
-#include "grid/observation/measured_grid.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -89,15 +88,15 @@ constexpr std::size_t kMostLookedAt = 200;
 constexpr double kRepeatMm = 30.0;
 
 /// A file may have ten thousand points.
-std::vector<std::size_t> looked_at(std::size_t count) {
+Indices looked_at(std::size_t count) {
   const std::size_t few = std::min(count, kMostLookedAt);
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < few; ++i) rows.push_back(i * count / few);
+  Indices rows;
+  for (const std::size_t i : each_below(few)) rows.push_back(i * count / few);
   return rows;
 }
 
 std::string number_of(const MeasuredGrid& grid, std::size_t row) {
-  return fmt::format("{}", grid.points[row].order.value_or(static_cast<int>(row) + 1));
+  return fmt::format("{}", grid.points[row].order.value_or(as_int(row) + 1));
 }
 
 std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
@@ -117,7 +116,7 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
 std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const MeasuredGrid& grid,
                                         const PlacedPoints& all, const RobustTrend& trend,
                                         Written written) {
-  const std::vector<std::size_t> looked = looked_at(grid.points.size());
+  const Indices looked = looked_at(grid.points.size());
   PlacedPoints few;
   for (const std::size_t row : looked) {
     few.points.push_back(all.points[row]);
@@ -193,12 +192,12 @@ std::string capitalised(std::string text) {
 std::optional<double> apart_from_its_repeat(const PlacedPoints& placed, std::size_t row) {
   const auto& [points, places] = placed;
   std::optional<double> apart;
-  for (std::size_t j = 0; j < points.size(); ++j) {
+  for (const auto j : each_index(points)) {
     if (j == row || !places[j]) continue;
-    const model::BedPoint a = *places[row];
-    const model::BedPoint b = *places[j];
+    const BedPoint a = *places[row];
+    const BedPoint b = *places[j];
     if (distance_mm(a, b) > kRepeatMm) continue;
-    const model::MarkPoint m = points[row].mark;
+    const MarkPoint m = points[row].mark;
     apart = distance_mm(m, points[j].mark);
   }
   return apart;
@@ -238,8 +237,7 @@ struct PointRows {
     return best;
   }
   /// Another row with a gross error such that the readings of the two fit each other's marks.
-  std::optional<std::size_t> exchanged_with(std::size_t row,
-                                            const std::vector<std::size_t>& gross) const {
+  std::optional<std::size_t> exchanged_with(std::size_t row, const Indices& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {
       return placed.places[reading] &&
              accounts.off(trend, grid.points[mark].mark, *placed.places[reading]).norm() <
@@ -253,7 +251,7 @@ struct PointRows {
 
   RowFinding words_of(std::size_t row, const RowError& slip) const {
     const std::string number = number_of(grid, row);
-    const model::MarkPoint mark = grid.points[row].mark;
+    const MarkPoint mark = grid.points[row].mark;
     const auto& motors = grid.machine->motors;
     if (!accounts.can_hold(mark)) {
       const bool is_above = mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm);
@@ -278,8 +276,8 @@ struct PointRows {
 
   std::vector<RowFinding> findings() const {
     constexpr std::size_t kMostNamed = 200;
-    std::vector<std::size_t> gross;
-    for (std::size_t row = 0; row < grid.points.size(); ++row) {
+    Indices gross;
+    for (const auto row : each_index(grid.points)) {
       if (is_gross(row) && gross.size() < kMostNamed) gross.push_back(row);
     }
     std::vector<RowFinding> found;
@@ -307,7 +305,7 @@ Findings check_points(const MeasuredGrid& grid, Written written) {
   const RobustTrend trend = robust_trend(accounts.rows(placed), accounts.prior_sigma_mm());
   const PointRows rows{accounts, grid, placed, trend};
   bool is_odd = trend.prior_chi_square > kOddPoints || trend.median_residual_mm() > kSoundMm;
-  for (std::size_t row = 0; row < grid.points.size(); ++row) is_odd = is_odd || rows.is_gross(row);
+  for (const auto row : each_index(grid.points)) is_odd = is_odd || rows.is_gross(row);
   Findings findings;
   if (is_odd) findings.whole = of_the_file(accounts, grid, placed, trend, written);
   if (!findings.whole) findings.whole = turned_sheet(accounts, grid, trend);

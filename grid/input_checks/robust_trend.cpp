@@ -51,7 +51,7 @@ RobustTrend robust_trend(const TrendRows& rows, const VectorXd& prior_sigma_mm) 
   trend.coefficients = MatrixXd::Zero(basis.cols(), components);
   trend.residual_mm = VectorXd::Constant(n, infinity());
   const auto take_residuals = [&] {
-    for (Index i = 0; i < n; ++i) {
+    for (const Index i : each_below(n)) {
       if (is_there(i))
         trend.residual_mm[i] = (readings_mm.row(i) - basis.row(i) * trend.coefficients).norm();
     }
@@ -67,7 +67,7 @@ RobustTrend robust_trend(const TrendRows& rows, const VectorXd& prior_sigma_mm) 
     MatrixXd right = MatrixXd::Zero(basis.cols(), components);
     double sum = 0.0;
     double count = 0.0;
-    for (Index i = 0; i < n; ++i) {
+    for (const Index i : each_below(n)) {
       if (!std::isfinite(trend.residual_mm[i])) continue;
       const double weight = dof / (1.0 + trend.residual_mm[i] * trend.residual_mm[i] / variance);
       normal.noalias() += weight / variance * basis.row(i).transpose() * basis.row(i);

@@ -9,7 +9,7 @@
 /// 881). Accounts of the same readings are compared by their log-likelihoods.
 #pragma once
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/input_checks/transformation_search.hpp"
-#include "grid/containers.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -39,7 +37,7 @@ std::vector<double> gains(const TrendRows& plain, const TrendRows& mended, const
     return log_density_of(std::isfinite(off_mm) ? off_mm : kMissingMm, scale_mm, components);
   };
   std::vector<double> gain;
-  for (Index i = 0; i < plain.off_mm.rows(); ++i)
+  for (const Index i : each_below(plain.off_mm.rows()))
     gain.push_back(density(mended, i) - density(plain, i));
   return gain;
 }
@@ -110,7 +108,7 @@ class Search {
     const auto offer = [&](RowSet rows, std::optional<std::size_t> from, std::string words,
                            double penalty) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < rows.size(); ++i) sum += rows[i] ? gain[i] : 0.0;
+      for (const auto i : each_index(rows)) sum += rows[i] ? gain[i] : 0.0;
       if (sum > kHundredTimes) parts.push_back({std::move(rows), from, std::move(words), penalty});
     };
     const std::size_t n = count();
@@ -128,7 +126,7 @@ class Search {
             cuts);
     RowSet some(n, false);
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : each_below(n)) {
       some[i] = gain[i] > 0.0;
       if (some[i]) names.push_back(name_of_row_(i));
     }

@@ -21,14 +21,15 @@
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/robust_trend.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 
 /// The affected rows of a file.
-using RowSet = std::vector<bool>;
+using RowSet = Flags;
 
 struct Transformation {
   ProblemKind kind = ProblemKind::axes;
@@ -58,7 +59,7 @@ class Transformations {
                       const std::function<void(Data&, std::size_t row)>& mend) {
     const auto mended = [&written = written_, rows_of = rows_of_, mend](const RowSet& rows) {
       Data meant = written;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (const auto i : each_index(rows)) {
         if (rows[i]) mend(meant, i);
       }
       return rows_of(meant);

@@ -8,15 +8,12 @@
 #include <string_view>
 #include <utility>
 
-#include "grid/eigen.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
-
-using model::BedPoint;
-using model::MarkPoint;
 
 MarkPoint scaled(MarkPoint mark, double x, double y) { return {x * mark.x_mm, y * mark.y_mm}; }
 
@@ -193,7 +190,7 @@ std::string origin_in_words(const Origin& x, const Origin& y) {
 }
 
 /// Edges and corners of the bed, and motors.
-void add_origins(List& list, const model::Machine& machine) {
+void add_origins(List& list, const Machine& machine) {
   const auto both_ways = [](std::vector<Origin>& list_of, Origin own, const char* back) {
     list_of.push_back(own);
     own.way = back;
@@ -263,11 +260,11 @@ std::string_view readings_of(const PlacedPoints& written) {
 /// Assigns every mark to its nearest place, if this uses each place once.
 std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   std::vector<Place> nearest;
-  std::vector<bool> taken(written.places.size(), false);
+  Flags taken(written.places.size(), false);
   for (const MeasuredPoint& point : written.points) {
     std::optional<std::size_t> best;
     double least = 0.0;
-    for (std::size_t j = 0; j < written.places.size(); ++j) {
+    for (const auto j : each_index(written.places)) {
       const Place& place = written.places[j];
       if (!place || taken[j]) continue;
       const double apart = distance_mm(point.mark, *place);

@@ -83,7 +83,7 @@ struct Check {
   std::string not_separable;
   /// Sentences: the corrections of the readings, and those that could not be made.
   std::vector<std::string> notes;
-  /// The result is for the map with other settings than its own (check_settings.hpp).
+  /// The result is for the map with other settings than its own (map_check.hpp).
   bool settings_have_changed = false;
   bool is_valid_as_it_is() const {
     return decided && verdict == CheckVerdict::valid && !settings_have_changed;

@@ -2,13 +2,14 @@
 /// Notation as in the header; q are the changed quantities of a hypothesis.
 #include "grid/map/check_evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "grid/containers.hpp"
 #include "grid/map/check_readings.hpp"
-#include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
@@ -24,7 +25,7 @@ struct Proposal {
   MatrixXd by_q;   ///< X
   VectorXd sigma;  ///< of q
   /// Which of the hypothesis' quantities each q is.
-  std::vector<std::size_t> quantity_of_q;
+  Indices quantity_of_q;
   std::size_t unit = 0;  ///< of a bad point
 };
 
@@ -83,11 +84,11 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   for (const model::MechanismChange& change : readings.changes)
     all.push_back(proposal_of(readings, change));
   all.push_back(plain(model::Change::unknown, CheckVerdict::measure_again, prior.unknown));
-  for (std::size_t u = 0; u < readings.units.size(); ++u) {
+  for (const auto u : each_index(readings.units)) {
     const CheckUnit& unit = readings.units[u];
     Proposal& bad = all.emplace_back(plain(model::Change::bad_point, CheckVerdict::measure_again,
                                            prior.bad_point / as_double(readings.units.size())));
-    bad.hypothesis.count = static_cast<int>(unit.index);
+    bad.hypothesis.count = as_int(unit.index);
     bad.hypothesis.name = unit.name;
     bad.unit = u;
   }
@@ -153,7 +154,7 @@ class Evidence {
     if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
     const MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
     const linear::Cholesky factor(linear::one_plus_gram(u));
-    const VectorXd by_y = linear::product(linear::transposed(u), y);
+    const VectorXd by_y = linear::inner(u, y);
     const VectorXd taken = factor.solve(by_y);
     const double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                                      y.squaredNorm() - by_y.dot(taken));
@@ -166,7 +167,7 @@ class Evidence {
   /// Fills the hypothesis; returns the addition to the evidence for a quantity that can only grow.
   static double take_posterior(Proposal& proposal, const VectorXd& q, const MatrixXd& covariance) {
     double added = 0.0;
-    for (std::size_t k = 0; k < proposal.quantity_of_q.size(); ++k) {
+    for (const auto k : each_index(proposal.quantity_of_q)) {
       const auto at = as_index(k);
       QuantityFound& found = proposal.hypothesis.found[proposal.quantity_of_q[k]];
       found.value += q[at];
@@ -198,6 +199,131 @@ std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings) {
     hypotheses.push_back(std::move(proposals[i].hypothesis));
   }
   return hypotheses;
+}
+
+namespace {
+
+using Quantity = model::ChangedQuantity;
+
+/// Probabilities of the verdicts, the likeliest of these, and the hypotheses likeliest first.
+void decide(Check& check) {
+  for (const CheckHypothesis& h : check.hypotheses)
+    check.probability[as_size(h.verdict)] += h.probability;
+  stable_sort(check.hypotheses, descending(&CheckHypothesis::probability));
+  const auto best = max_element(check.probability);
+  check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
+  check.decided = *best >= kDecided;
+  // Reports the strongest support for the verdict first.
+  const auto first = std::find_if(check.hypotheses.begin(), check.hypotheses.end(),
+                                  [&](const auto& h) { return h.verdict == check.verdict; });
+  std::rotate(check.hypotheses.begin(), first, first + 1);
+}
+
+std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
+  if (h.what == model::Change::nothing) return "nothing has changed";
+  if (h.what == model::Change::bad_point) return fmt::format("only {} is wrong", h.name);
+  if (h.what == model::Change::unknown) return "something has changed that has no known pattern";
+  return words.change(h);
+}
+
+std::string sentence_of(const Check& check, const CheckWords& words) {
+  const CheckHypothesis& first = check.hypotheses.front();
+  const double percent = 100.0 * check.probability[as_size(check.verdict)];
+  if (first.what == model::Change::bad_point) {
+    return fmt::format(
+        "Measure {} again ({:.0f} %): only this reading is wrong, and it does not show whether {} "
+        "is valid.",
+        first.name, percent, words.subject);
+  }
+  const bool rezero = check.verdict == CheckVerdict::valid_after_rezeroing;
+  const std::string& head = check.verdict == CheckVerdict::valid ? words.valid
+                            : rezero                             ? words.rezero
+                                                                 : words.again;
+  std::string sentence = fmt::format("{} ({:.0f} %): {}.", head, percent, clause_of(first, words));
+  if (rezero && words.what_to_set) sentence += " " + words.what_to_set(check);
+  return sentence;
+}
+
+std::string not_separable_of(const Check& check, const CheckWords& words) {
+  if (check.hypotheses.front().probability >= kDecided) return {};
+  constexpr double kWorthNaming = 0.05;
+  std::vector<std::string> others;
+  for (const CheckHypothesis& h : check.hypotheses) {
+    if (h.probability >= kWorthNaming)
+      others.push_back(fmt::format("{} ({:.0f} %)", clause_of(h, words), 100.0 * h.probability));
+  }
+  std::string text =
+      fmt::format("These {} do not distinguish: {}.", words.readings, fmt::join(others, "; "));
+  if (!check.decided) {
+    text += fmt::format(" Measure more {}, far from each other, before you rely on either.",
+                        words.readings);
+  }
+  return text;
+}
+
+QuantityFound found_of(const CheckHypothesis& h, Quantity::Kind kind, std::size_t length) {
+  for (const QuantityFound& one : h.found) {
+    if (one.of.kind == kind && contains(one.of.lengths, length)) return one;
+  }
+  return {};
+}
+
+/// Root of the mean square of some of the residuals' numbers.
+double rms_over(const CheckUnit& unit, const std::vector<CheckResidual>& residuals,
+                double CheckResidual::*number) {
+  double square = 0.0;
+  for (std::size_t k = unit.first_row; k < unit.first_row + unit.rows; ++k)
+    square += residuals[k].*number * residuals[k].*number;
+  return std::sqrt(square / as_double(unit.rows));
+}
+
+}  // namespace
+
+std::string_view name(CheckVerdict verdict) {
+  constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
+  return kNames[as_size(verdict)];
+}
+
+QuantityFound CheckHypothesis::added(std::size_t length) const {
+  return found_of(*this, Quantity::Kind::added, length);
+}
+
+QuantityFound CheckHypothesis::elongation(std::size_t length) const {
+  return found_of(*this, Quantity::Kind::elongation, length);
+}
+
+double CheckHypothesis::size() const {
+  if (found.size() == 1) return found.front().value;
+  double square = 0.0;
+  for (const QuantityFound& one : found) square += one.value * one.value;
+  return std::sqrt(square);
+}
+
+double CheckUnit::rms_mm(const std::vector<CheckResidual>& residuals) const {
+  return rms_over(*this, residuals, &CheckResidual::residual_mm);
+}
+
+double CheckUnit::sigma_mm(const std::vector<CheckResidual>& residuals) const {
+  return rms_over(*this, residuals, &CheckResidual::sigma_mm);
+}
+
+Check judged(const CheckReadings& readings, const CheckWords& words) {
+  Check check;
+  check.hypotheses = weighed_hypotheses(readings);
+  decide(check);
+  for (const auto i : each_index(readings.zero_mm))
+    check.new_zero_mm.push_back(readings.zero_mm[i] + check.hypotheses.front().added(i).value);
+  const VectorXd variance = readings.covariance.diagonal();
+  for (const Index k : each_below(readings.residual_mm.size())) {
+    check.residuals.push_back(
+        {readings.names[as_size(k)], readings.residual_mm[k], std::sqrt(variance[k])});
+  }
+  check.units = readings.units;
+  stable_sort(check.units, ascending(&CheckUnit::index));
+  check.sentence = sentence_of(check, words);
+  check.not_separable = not_separable_of(check, words);
+  check.notes = readings.notes;
+  return check;
 }
 
 }  // namespace chaintrue::grid

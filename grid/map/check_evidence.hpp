@@ -24,13 +24,14 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/check.hpp"
 #include "grid/map/reading_covariance.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -54,5 +55,23 @@ struct CheckReadings {
 
 /// In this order: nothing, the mechanism's changes, an unknown change, and each unit as a single bad one.
 std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings);
+
+// The verdict of a check with its probability and sentences, from the hypotheses' probabilities.
+// Private to grid.
+
+/// A check's words for the calibration, the readings, and changes of the mechanism.
+struct CheckWords {
+  std::string subject;   ///< "the map"
+  std::string readings;  ///< "points"
+  std::string valid;     ///< "The map is still valid"
+  std::string rezero;    ///< "The map is valid after re-zeroing"
+  std::string again;     ///< "The map must be measured again"
+  /// A change of the mechanism's as a clause: "the zero of the left chain has shifted by +1.00 mm".
+  std::function<std::string(const CheckHypothesis&)> change;
+  /// Follows `rezero`; empty: none.
+  std::function<std::string(const Check&)> what_to_set = {};
+};
+
+Check judged(const CheckReadings& readings, const CheckWords& words);
 
 }  // namespace chaintrue::grid

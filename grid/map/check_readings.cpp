@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -23,6 +22,7 @@
 #include "grid/observation/observation.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_changes.hpp"
@@ -30,8 +30,6 @@
 
 namespace chaintrue::grid {
 namespace {
-
-using model::MarkPoint;
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
@@ -51,11 +49,11 @@ struct Repeated {
 
 /// The new points of one file: their positions on the map, and their readings.
 struct CheckedPart {
-  std::vector<model::MarkPoint> marks;  ///< on the map
+  std::vector<MarkPoint> marks;  ///< on the map
   /// For a newly placed sheet: the accuracy of its placement, and where the readings put it in the
   /// map's frame. Everything is linearised there.
   std::optional<observation::SheetPrior> sheet;
-  model::SheetPlacement placement;
+  SheetPlacement placement;
   std::vector<std::string> notes;
   std::vector<Repeated> points;  ///< of a grid
   StatedNoise noise;
@@ -77,7 +75,7 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
     if (is_new) result.push_back({point, 0.0});
     Repeated& one = result[place->second];
     one.count += 1.0;
-    for (const model::Side side : model::kSides)
+    for (const Side side : kSides)
       one.point.lengths[side] += (point.lengths[side] - one.point.lengths[side]) / one.count;
   }
   return result;
@@ -127,11 +125,11 @@ Matrix2d noise_at(const CheckedPart& part, const Repeated& one, const Matrix2d& 
 
 /// Places the sheet and its marks by the readings and its prior.
 void lay(const CompensationMap& map, CheckedPart& part) {
-  const auto on_map = [](const model::SheetPlacement& sheet, const Repeated& one) {
+  const auto on_map = [](const SheetPlacement& sheet, const Repeated& one) {
     return model::identity_placement(sheet.to_bed(one.point.mark));
   };
   part.placement = estimation::fit_placement(
-      [&](const model::SheetPlacement& sheet, estimation::PlacementNormal& sum) {
+      [&](const SheetPlacement& sheet, estimation::PlacementNormal& sum) {
         for (const Repeated& one : part.points) {
           const auto here = map.lengths(on_map(sheet, one));
           if (!here) return false;
@@ -142,7 +140,7 @@ void lay(const CompensationMap& map, CheckedPart& part) {
         return true;
       },
       part.sheet);
-  for (std::size_t i = 0; i < part.marks.size(); ++i)
+  for (const auto i : each_index(part.marks))
     part.marks[i] = on_map(part.placement, part.points[i]);
 }
 
@@ -209,7 +207,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
 /// The map at N places of new readings: d(lengths)/d(mark), and the uncertainty of its lengths, one
 /// sigma a column, jointly or place by place.
 struct MapAt {
-  std::vector<model::ChainLengths> lengths;
+  std::vector<ChainLengths> lengths;
   std::vector<Matrix2d> by_mark;
   MatrixXd factor;                  ///< F, 2 N x any
   Eigen::SparseMatrix<double> own;  ///< of each place by itself where F has none, 2 N x 2 N
@@ -226,13 +224,13 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's uncertainty is not linear in the unknowns, so its points are used directly.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  constexpr auto& kOfMachine = model::kMachineSettings;
+  constexpr auto& kOfMachine = kMachineSettings;
   at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
   at.factor.resize(2 * count, is_joint ? surface->covariance_factor.cols() : 0);
   at.own.resize(2 * count, 2 * count);
-  std::optional<model::ReadingModel> model;
+  std::optional<ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const double share = as_double(i) / as_double(count);
     tell(progress, {"the map at the new points", 1, 2, share});
     const MarkPoint mark = marks[as_size(i)];
@@ -290,7 +288,7 @@ class Gathered {
     add_errors(readings_.by_length * at_.own, covariance);
     readings_.by_parameter = readings_.by_length * at_.by_parameter;
     readings_.lengths_mm.resize(2 * places);
-    for (Index i = 0; i < places; ++i)
+    for (const Index i : each_below(places))
       readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.lengths[as_size(i)]);
     return std::move(readings_);
   }
@@ -310,7 +308,7 @@ class Gathered {
     const Index before = row();
     const Vector3d laid(part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
     Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
-    for (std::size_t i = 0; i < part.points.size(); ++i) {
+    for (const auto i : each_index(part.points)) {
       const LengthPoint& point = part.points[i].point;
       const Matrix2d& by_mark = at_.by_mark[first + i];
       const auto chain = 2 * as_index(first + i);
@@ -334,8 +332,8 @@ class Gathered {
   /// Independent errors of the rows from one on, one sigma a column.
   void gather(const MatrixXd& by_error, Index first_row) {
     const Index first = errors_.empty() ? 0 : errors_.back().col() + 1;
-    for (Index column = 0; column < by_error.cols(); ++column) {
-      for (Index i = 0; i < by_error.rows(); ++i) {
+    for (const Index column : each_below(by_error.cols())) {
+      for (const Index i : each_below(by_error.rows())) {
         if (by_error(i, column) != 0.0)
           errors_.emplace_back(first_row + i, first + column, by_error(i, column));
       }
@@ -349,12 +347,12 @@ class Gathered {
     const Index before = row(), count = residual.size();
     append_all(residual_mm_, residual);
     Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
-    for (Index k = 0; k < count; ++k) {
+    for (const Index k : each_below(count)) {
       const HoleDistance& distance = set.distances[as_size(k)];
       readings_.names.push_back(words_of(set, distance) + of);
       add_unit(readings_.names.back(),
                MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
-      std::vector<std::size_t> ends = {distance.from};
+      Indices ends = {distance.from};
       if (!distance.edge) ends.push_back(distance.to);
       for (const std::size_t hole : ends) {
         const auto column = 2 * as_index(hole);
@@ -368,7 +366,7 @@ class Gathered {
       // with the rotation to first order.
       if (distance.edge) {
         by_sheet.row(k) = -geometry.by_mark.block<1, 2>(k, 2 * as_index(distance.from)) *
-                          model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
+                          SheetPlacement{}.sensitivity(part.marks[distance.from]);
       }
     }
     gather(set.hole_sigma_mm * geometry.by_mark, before);
@@ -388,19 +386,19 @@ class Gathered {
 
 void add_errors(const Eigen::SparseMatrix<double>& errors, ReadingCovariance& covariance) {
   using At = Eigen::SparseMatrix<double>::InnerIterator;
-  std::vector<std::size_t> unit_of;  // of each row
-  std::vector<Index> first_row;
+  Indices unit_of;  // of each row
+  Rows first_row;
   for (const MatrixXd& own : covariance.own) {
     first_row.push_back(std::ssize(unit_of));
     unit_of.resize(unit_of.size() + as_size(own.rows()), first_row.size() - 1);
   }
   Index columns = covariance.shared.cols();
   Entries entries;
-  for (Index column = 0; column < columns; ++column) {
+  for (const Index column : each_below(columns)) {
     for (At at(covariance.shared, column); at; ++at)
       entries.emplace_back(at.row(), column, at.value());
   }
-  for (Index error = 0; error < errors.cols(); ++error) {
+  for (const Index error : each_below(errors.cols())) {
     const std::size_t before = entries.size();
     for (At at(errors, error); at; ++at) entries.emplace_back(at.row(), columns, at.value());
     if (entries.size() == before) continue;
@@ -426,7 +424,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     return files.size() > 1 ? file.name + ": " : std::string{};
   };
   std::vector<CheckedPart> parts;
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const MeasuredFile& file : files) {
     auto part =
         std::visit([&map](const auto& one) { return checked_part(map, one); }, file.measured);
@@ -437,22 +435,20 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     parts.push_back(*std::move(part));
   }
   const auto at = map_at(map, marks, progress);
-  if (!at) return tl::unexpected(at.error());
+  if (!at) return failed(at);
   Gathered gathered(*at);
   std::size_t first = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (const auto k : each_index(parts)) {
     gathered.add(parts[k], first, files.size() > 1 ? " of " + files[k].name : std::string{});
     first += parts[k].marks.size();
   }
   CheckReadings readings = std::move(gathered).readings();
   constexpr double kUsualPitchMm = 6.35;
-  readings.changes = map.machine() != nullptr
-                         ? model::ReadingModel(*map.machine()).possible_changes()
-                         : model::changes_of_chains(kUsualPitchMm);
-  const model::ChainLengths zero =
-      map.machine() != nullptr ? map.machine()->chain_zero : model::ChainLengths{};
+  readings.changes = map.machine() != nullptr ? ReadingModel(*map.machine()).possible_changes()
+                                              : model::changes_of_chains(kUsualPitchMm);
+  const ChainLengths zero = map.machine() != nullptr ? map.machine()->chain_zero : ChainLengths{};
   readings.zero_mm = {zero.left_mm, zero.right_mm};
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (const auto k : each_index(parts)) {
     for (const std::string& note : parts[k].notes)
       readings.notes.push_back(head_of(files[k]) + note);
   }

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/failed.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 
 std::string_view name(NoiseSource source) {
   constexpr std::string_view kNames[] = {"stated", "repeats", "fit", "assumed"};
-  return kNames[static_cast<std::size_t>(source)];
+  return kNames[as_size(source)];
 }
 
 MapFailure unreachable(const model::MechanismFailure& why) {
@@ -31,9 +32,9 @@ std::string_view sentence_of(MapReason reason) {
   return "no point of the bed was found for these chain lengths";
 }
 
-std::optional<model::Machine> stated_machine(const CompensationMap& map) {
+std::optional<Machine> stated_machine(const CompensationMap& map) {
   if (map.machine() == nullptr) return std::nullopt;
-  model::Machine machine = *map.machine();
+  Machine machine = *map.machine();
   for (const SettingResult& result : map.contents().settings) {
     if (!model::is_of_sheet(result.setting))
       machine = model::with_setting(std::move(machine), result.setting, result.stated);
@@ -67,9 +68,9 @@ CompensationMap CompensationMap::with_sigma_beyond(double factor) const {
   return map;
 }
 
-tl::expected<MapAnswer, MapFailure> CompensationMap::query(model::MarkPoint mark) const {
+tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
   const auto found = with_spread(mark);
-  if (!found) return tl::unexpected(found.error());
+  if (!found) return failed(found);
   MapAnswer answer;
   answer.lengths = found->here.lengths;
   answer.mark_jacobian = found->here.mark_jacobian;
@@ -82,26 +83,25 @@ tl::expected<MapAnswer, MapFailure> CompensationMap::query(model::MarkPoint mark
   return answer;
 }
 
-tl::expected<MapSpread, MapFailure> CompensationMap::with_spread(model::MarkPoint mark) const {
+tl::expected<MapSpread, MapFailure> CompensationMap::with_spread(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
   return field_->at(mark, MapField::Asked::spread);
 }
 
-tl::expected<MapLengths, MapFailure> CompensationMap::lengths(model::MarkPoint mark) const {
+tl::expected<MapLengths, MapFailure> CompensationMap::lengths(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
   return field_->at(mark).map([](const MapSpread& found) { return found.here; });
 }
 
-tl::expected<model::MarkPoint, MapFailure> CompensationMap::inverse(
-    model::ChainLengths wanted) const {
+tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted) const {
   constexpr int kSteps = 30;
   constexpr double kConvergedMm = 1e-9;
   const interp::Rectangle& domain = contents_.domain;
   const auto field = field_to_search();
-  model::MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
+  MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
   for (int step = 0; step < kSteps; ++step) {
     const auto found = field->at(mark);
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     const MapLengths& here = found->here;
     const Vector2d missing = difference(wanted, here.lengths);
     const Vector2d move = here.mark_jacobian.inverse() * missing;
@@ -110,7 +110,7 @@ tl::expected<model::MarkPoint, MapFailure> CompensationMap::inverse(
     mark = within({mark.x_mm + move.x(), mark.y_mm + move.y()}, 50.0);
     if (move.norm() >= kConvergedMm) continue;
     // On the domain's edge the last step may end outside by the tolerance.
-    const model::MarkPoint inside = within(mark, 0.0);
+    const MarkPoint inside = within(mark, 0.0);
     if (distance_mm(inside, mark) < kConvergedMm) mark = inside;
     if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
     return mark;
@@ -118,14 +118,14 @@ tl::expected<model::MarkPoint, MapFailure> CompensationMap::inverse(
   return tl::unexpected(MapReason::not_converged);
 }
 
-MapStatus CompensationMap::status(model::MarkPoint mark) const {
+MapStatus CompensationMap::status(MarkPoint mark) const {
   const MapStatus status = area_.status(mark);
   const bool refused =
       contents_.outside.way == Outside::refuse && status == MapStatus::extrapolated;
   return refused ? MapStatus::outside : status;
 }
 
-Matrix2Xd CompensationMap::tool_spread(model::MarkPoint mark) const {
+Matrix2Xd CompensationMap::tool_spread(MarkPoint mark) const {
   const auto found = with_spread(mark);
   if (!found) return Matrix2Xd(2, 0);
   // A length that is truly longer leaves the tool short of the mark.
@@ -133,17 +133,17 @@ Matrix2Xd CompensationMap::tool_spread(model::MarkPoint mark) const {
          found->spread_mm;
 }
 
-const model::Machine* CompensationMap::machine() const {
+const Machine* CompensationMap::machine() const {
   const auto* surface = std::get_if<ModelSurface>(&contents_.surface);
   return surface == nullptr ? nullptr : &surface->machine;
 }
 
-bool CompensationMap::answers_at(model::MarkPoint mark) const {
+bool CompensationMap::answers_at(MarkPoint mark) const {
   if (!contents_.domain.contains(mark.x_mm, mark.y_mm)) return false;
   return contents_.outside.way != Outside::refuse || status(mark) != MapStatus::outside;
 }
 
-model::MarkPoint CompensationMap::within(model::MarkPoint mark, double beyond_mm) const {
+MarkPoint CompensationMap::within(MarkPoint mark, double beyond_mm) const {
   const interp::Rectangle& domain = contents_.domain;
   return {std::clamp(mark.x_mm, domain.x_min - beyond_mm, domain.x_max + beyond_mm),
           std::clamp(mark.y_mm, domain.y_min - beyond_mm, domain.y_max + beyond_mm)};

@@ -17,12 +17,11 @@
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
-#include <variant>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/map_field.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -39,32 +38,31 @@ class CompensationMap {
   [[nodiscard]] CompensationMap with_sigma_beyond(double factor) const;
   const MapContents& contents() const { return contents_; }
 
-  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(MarkPoint mark) const;
   /// Without what a cause in the map adds to the sigmas beyond the measured part.
-  [[nodiscard]] tl::expected<MapSpread, MapFailure> with_spread(model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> with_spread(MarkPoint mark) const;
   /// Lengths and their derivative alone, some ten times faster: what a path needs between its
   /// corners.
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> lengths(model::MarkPoint mark) const;
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> lengths(MarkPoint mark) const;
   /// Where the tool is when these lengths are paid out: Newton to 1e-9 mm, at most 30 steps.
-  [[nodiscard]] tl::expected<model::MarkPoint, MapFailure> inverse(
-      model::ChainLengths wanted) const;
+  [[nodiscard]] tl::expected<MarkPoint, MapFailure> inverse(ChainLengths wanted) const;
 
-  [[nodiscard]] MapStatus status(model::MarkPoint mark) const;
+  [[nodiscard]] MapStatus status(MarkPoint mark) const;
   /// As in LengthMap; no columns where lengths() has no answer.
-  Matrix2Xd tool_spread(model::MarkPoint mark) const;
+  Matrix2Xd tool_spread(MarkPoint mark) const;
   /// The same place in the other frame; a direct map knows only one.
-  model::MarkPoint to_mark(model::BedPoint bed) const { return field_->sheet().to_mark(bed); }
-  model::BedPoint to_bed(model::MarkPoint mark) const { return field_->sheet().to_bed(mark); }
+  MarkPoint to_mark(BedPoint bed) const { return field_->sheet().to_mark(bed); }
+  BedPoint to_bed(MarkPoint mark) const { return field_->sheet().to_bed(mark); }
   /// Null for a direct map.
-  const model::Machine* machine() const;
+  const Machine* machine() const;
 
  private:
-  bool answers_at(model::MarkPoint mark) const;
+  bool answers_at(MarkPoint mark) const;
   double spread_factor(MapStatus status) const {
     return status == MapStatus::extrapolated ? contents_.sigma_factor_beyond : 1.0;
   }
   /// The nearest place that is no farther than this off the domain.
-  model::MarkPoint within(model::MarkPoint mark, double beyond_mm) const;
+  MarkPoint within(MarkPoint mark, double beyond_mm) const;
   /// Constant lengths beyond the points stop a search, so it uses the surface's own continuation.
   std::shared_ptr<const MapField> field_to_search() const;
 
@@ -75,6 +73,6 @@ class CompensationMap {
 
 /// The controller's machine unless a file states another: the map's, with the settings as they were
 /// stated, not as they were calibrated. Empty for a map without a machine.
-std::optional<model::Machine> stated_machine(const CompensationMap& map);
+std::optional<Machine> stated_machine(const CompensationMap& map);
 
 }  // namespace chaintrue::grid

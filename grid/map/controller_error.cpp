@@ -14,13 +14,11 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
-
 constexpr int kColumns = 25;
 constexpr int kRows = 13;
 
 /// d(left, right)/d(x, y) by steps towards `middle`, where the map answers if it answers at `at`.
-std::optional<Matrix2d> jacobian_at(const LengthMap& map, BedPoint at, model::ChainLengths here,
+std::optional<Matrix2d> jacobian_at(const LengthMap& map, BedPoint at, ChainLengths here,
                                     BedPoint middle) {
   // The error of a one-sided step is half of it over a chain's length, 5e-6; that of rounding 1e-7.
   constexpr double kStepMm = 0.01;
@@ -53,12 +51,12 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
     if (!jacobian) return;
     places.push_back({at, *lengths, jacobian->inverse(), map.tool_spread(at), is_on_edge});
   };
-  for (const model::MarkPoint& mark : raster(box, kColumns, kRows, RasterOf::cells)) {
+  for (const MarkPoint& mark : raster(box, kColumns, kRows, RasterOf::cells)) {
     if (area.contains(mark.x_mm, mark.y_mm)) add(model::identity_placement(mark), false);
   }
   const double spacing = std::max(box.width() / kColumns, box.height() / kRows);
   const auto& corners = area.corners();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (const auto i : each_index(corners)) {
     const interp::PlanePoint from = corners[i], to = corners[(i + 1) % corners.size()];
     const double steps = std::ceil(std::hypot(to.x - from.x, to.y - from.y) / spacing);
     for (double step = 0.0; step < steps; step += 1.0)
@@ -69,15 +67,15 @@ std::vector<MeasuredPlace> measured_places(const LengthMap& map,
 
 std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame) {
   std::vector<BedPoint> hull;
-  for (const model::MarkPoint corner : map.contents().hull) {
+  for (const MarkPoint corner : map.contents().hull) {
     hull.push_back(frame == MapFrame::bed ? map.to_bed(corner) : model::identity_placement(corner));
   }
   return measured_places(MapInFrame(map, frame), hull);
 }
 
-PaidOut paid_out_by(const model::Machine& machine) {
+PaidOut paid_out_by(const Machine& machine) {
   return [controller = std::shared_ptr(model::make_controller_kinematics(machine))](
-             BedPoint command) -> std::optional<model::ChainLengths> {
+             BedPoint command) -> std::optional<ChainLengths> {
     const auto lengths = controller->lengths(command);
     return lengths ? std::optional(*lengths) : std::nullopt;
   };
@@ -86,7 +84,7 @@ PaidOut paid_out_by(const model::Machine& machine) {
 std::optional<VectorXd> controller_errors(const PaidOut& paid_out,
                                           const std::vector<MeasuredPlace>& places) {
   VectorXd errors(2 * std::ssize(places));
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     const auto lengths = paid_out(places[i].commanded);
     if (!lengths) return std::nullopt;
     errors.segment<2>(2 * as_index(i)) =
@@ -100,7 +98,7 @@ ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
   LargestError largest;
   double squares_mm2 = 0.0;
   int within = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     const Vector2d expected_mm = errors_mm.segment<2>(2 * as_index(i));
     largest.add(expected_mm, places[i].spread_mm);
     if (places[i].is_on_edge) continue;
@@ -114,7 +112,7 @@ namespace {
 
 /// An ideal controller uses the machine file. What a diagnosis added later did not affect the
 /// commands.
-bool is_controller_machine(const model::Machine& machine) {
+bool is_controller_machine(const Machine& machine) {
   return machine.controller.kind != model::ControllerKind::ideal ||
          none_of(machine.effects,
                  [](const auto& effect) { return effect.probability.has_value(); });

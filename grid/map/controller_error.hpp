@@ -26,16 +26,16 @@
 #include <optional>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/map/map_in_frame.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
 /// A place of the measured area on the map.
 struct MeasuredPlace {
-  model::BedPoint commanded;
-  model::ChainLengths lengths;
+  BedPoint commanded;
+  ChainLengths lengths;
   /// J^-1 of (1).
   Matrix2d to_tool;
   /// S of (1).
@@ -45,15 +45,14 @@ struct MeasuredPlace {
 
 /// Within a convex hull 25 columns and 13 rows, closer than any wave of a map between a few dozen
 /// points, and its edge at the same spacing. Places that the map does not answer are left out.
-std::vector<MeasuredPlace> measured_places(const LengthMap& map,
-                                           const std::vector<model::BedPoint>& hull);
+std::vector<MeasuredPlace> measured_places(const LengthMap& map, const std::vector<BedPoint>& hull);
 /// `frame` states what the controller's commands refer to: the numbers of the marks, or places on
 /// the bed.
 std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame);
 
 /// The lengths that a controller pays out for a command; empty if it cannot go there.
-using PaidOut = std::function<std::optional<model::ChainLengths>(model::BedPoint)>;
-PaidOut paid_out_by(const model::Machine& machine);
+using PaidOut = std::function<std::optional<ChainLengths>(BedPoint)>;
+PaidOut paid_out_by(const Machine& machine);
 
 /// The first part of (1) at every place, x and y one below the other; empty if the controller
 /// cannot go to one.

@@ -13,11 +13,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::AppliedEffect;
-using model::Machine;
-using model::effects::Effect;
 using model::effects::find_effect;
-using model::effects::Station;
 
 bool is_of_the_paper(const Effect& effect) { return effect.station == Station::paper; }
 
@@ -44,9 +40,9 @@ std::string names_of(const Machine& machine) {
   return names;
 }
 
-tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
+tl::expected<std::vector<ChainLengths>, FitFailure> readings_with(
     const Machine& machine, const std::vector<model::Visit>& visits) {
-  auto read = model::readings(model::ReadingModel(machine), visits);
+  auto read = model::readings(ReadingModel(machine), visits);
   if (read) return *std::move(read);
   return failed(FitReason::point_unreachable,
                 fmt::format("point {} cannot be reached by the machine in your file: {}",
@@ -62,14 +58,14 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid, const Machin
   for (const MeasuredPoint& point : grid.points)
     visits.push_back({model::identity_placement(point.mark), *point.order});
   const auto disturbed = readings_with(with_visits, visits);
-  if (!disturbed) return tl::unexpected(disturbed.error());
+  if (!disturbed) return failed(disturbed);
   const auto quiet = readings_with(without, visits);
-  if (!quiet) return tl::unexpected(quiet.error());
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    const model::ChainLengths read = (*points)[i].lengths;
+  if (!quiet) return failed(quiet);
+  for (const auto i : each_index(grid.points)) {
+    const ChainLengths read = (*points)[i].lengths;
     grid.points[i].lengths =
-        model::ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),
-                            read.right_mm - ((*disturbed)[i].right_mm - (*quiet)[i].right_mm)};
+        ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),
+                     read.right_mm - ((*disturbed)[i].right_mm - (*quiet)[i].right_mm)};
     grid.points[i].commanded.reset();
   }
   return {};
@@ -96,8 +92,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
     if (has_order) {
       Machine both = rest;
       append_all(both.effects, visit.effects);
-      if (auto done = correct_readings(corrected.grid, both, rest); !done)
-        return tl::unexpected(done.error());
+      if (auto done = correct_readings(corrected.grid, both, rest); !done) return failed(done);
       corrected.notes.push_back(
           fmt::format("Changes during the session were removed from the readings ({}): the map, "
                       "and the errors with it and without, are for the machine before the change.",

@@ -117,7 +117,7 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& 
     return failed(FitReason::no_lengths, distances.error());
   }
   if (auto possible = check_readings_of(*set.machine, set.readings, "set's"); !possible)
-    return tl::unexpected(possible.error());
+    return failed(possible);
   return std::make_unique<DistancesPart>(
       std::make_shared<const observation::TapeDistances>(*std::move(distances)));
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -16,27 +15,26 @@
 #include "grid/map/map_accuracy.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
 namespace {
 
-using model::Side;
-
 /// A full grid and its values.
 struct Lattice : LatticeNodes {
-  model::PerSide<MatrixXd> lengths_mm;
+  PerSide<MatrixXd> lengths_mm;
 };
 
 /// Repeats are averaged.
 Lattice lattice_of(const std::vector<LengthPoint>& points) {
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const LengthPoint& point : points) marks.push_back(point.mark);
   Lattice lattice{lattice_nodes(marks), {}};
-  for (const Side side : model::kSides) {
+  for (const Side side : kSides) {
     MatrixXd& lengths_mm = lattice.lengths_mm[side];
     lengths_mm = MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const auto i : each_index(points)) {
       const auto [ix, iy] = lattice.of_mark[i];
       lengths_mm(ix, iy) += points[i].lengths[side];
     }
@@ -83,7 +81,7 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
     const interp::TensorSpline left = spline(lattice.lengths_mm.left);
     const interp::TensorSpline right = spline(lattice.lengths_mm.right);
     const std::size_t nodes = columns ? lattice.y_nodes_mm.size() : lattice.x_nodes_mm.size();
-    for (std::size_t node = 0; node < nodes; ++node) {
+    for (const std::size_t node : each_below(nodes)) {
       const std::size_t ix = columns ? line : node;
       const std::size_t iy = columns ? node : line;
       const auto l = left.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
@@ -124,7 +122,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   const auto points = length_points(grid);
   if (!points) return failed(FitReason::no_lengths, points.error());
   Lattice lattice = lattice_of(*points);
-  if (auto full = check_full(lattice); !full) return tl::unexpected(full.error());
+  if (auto full = check_full(lattice); !full) return failed(full);
 
   const LineErrors columns = leave_lines_out(lattice, options.ends, true);
   const LineErrors rows = leave_lines_out(lattice, options.ends, false);
@@ -132,7 +130,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   map.name = grid.name;
   map.domain = {lattice.x_nodes_mm.front(), lattice.x_nodes_mm.back(), lattice.y_nodes_mm.front(),
                 lattice.y_nodes_mm.back()};
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const LengthPoint& point : *points) marks.push_back(point.mark);
   const MeasuredArea area(marks, map.domain);
   map.hull = area.hull();
@@ -180,7 +178,7 @@ tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const Fi
         .map([](JointFit&& fit) { return std::move(fit.map); });
   }
   const auto corrected = corrected_data(grid);
-  if (!corrected) return tl::unexpected(corrected.error());
+  if (!corrected) return failed(corrected);
   auto map = fit_direct(corrected->grid, options);
   if (!map) return map;
   return map->with_notes_first(corrected->notes).with_outside(options.outside);

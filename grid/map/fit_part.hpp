@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "grid/map/fit.hpp"
-#include "grid/map/fitted_distances.hpp"
 #include "grid/map/fitted_points.hpp"
 
 namespace chaintrue::grid {
@@ -24,14 +23,14 @@ struct Fitting {
   /// The estimate of `input`.
   [[nodiscard]] static tl::expected<Fitting, FitFailure> of(estimation::EstimationInput input);
   /// A place on a file's sheet in the frame of the first file's marks.
-  model::MarkPoint in_frame(std::size_t file, model::MarkPoint mark) const;
+  MarkPoint in_frame(std::size_t file, MarkPoint mark) const;
 };
 
 /// Collects the files' parts of a map.
 struct MapDraft {
   MapContents map;
-  std::vector<model::MarkPoint> good;  ///< places that count, in the map's frame
-  std::vector<FittedPoint> points;     ///< of all grids
+  std::vector<MarkPoint> good;      ///< places that count, in the map's frame
+  std::vector<FittedPoint> points;  ///< of all grids
   std::vector<FittedDistances> distances;
   double tape_sigma_mm = 0.0;            ///< of the first set, if all files are sets of holes
   std::vector<std::string> sources;      ///< the contribution of each file, if there are several
@@ -47,7 +46,7 @@ class FitPart {
   FitPart& operator=(const FitPart&) = delete;
   virtual ~FitPart() = default;
 
-  model::Machine machine;  ///< as stated; for a grid without the effects removed from its data
+  Machine machine;  ///< as stated; for a grid without the effects removed from its data
   std::shared_ptr<const observation::Observation> observation;
   interp::NoiseScale noise;
   interp::Rectangle domain;
@@ -78,6 +77,6 @@ class FitPart {
 
 /// The machine with its direct readings applied, if it is possible. `what` has the readings.
 [[nodiscard]] tl::expected<void, FitFailure> check_readings_of(
-    const model::Machine& machine, const std::vector<ExtraReading>& readings, const char* what);
+    const Machine& machine, const std::vector<ExtraReading>& readings, const char* what);
 
 }  // namespace chaintrue::grid

@@ -41,7 +41,7 @@ tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>
 
 tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
                                          const Progress& progress) {
-  if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
+  if (auto one = check_one_machine(files); !one) return failed(one);
   const bool with_grids =
       any_of(files, [](const MeasuredFile& file) { return file.grid() != nullptr; });
   Parts parts;
@@ -97,7 +97,7 @@ estimation::EstimationInput estimation_input(const Parts& parts) {
 tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>& files,
                                                  const Parts& parts,
                                                  const estimation::Estimate& estimate) {
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (const auto k : each_index(parts)) {
     std::size_t all = 0;
     std::size_t bad = 0;
     for (const estimation::UnitEstimate& unit : estimate.units) {
@@ -121,7 +121,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
 tl::expected<Fitting, FitFailure> fit_alone(FitPart& part, estimation::EstimationInput input) {
   auto fitting = Fitting::of(std::move(input));
   if (!fitting) return fitting;
-  if (auto found = part.find_noise(*fitting); !found) return tl::unexpected(found.error());
+  if (auto found = part.find_noise(*fitting); !found) return failed(found);
   return fitting;
 }
 
@@ -150,7 +150,7 @@ void note_zeros(const std::vector<MeasuredFile>& files, const estimation::Estima
   const auto own = [&](std::size_t k) -> const auto& { return estimate.observations[k].zeros; };
   std::size_t of_map = 0;
   while (of_map + 1 < files.size() && files[of_map].grid() == nullptr) ++of_map;
-  for (std::size_t k = 0; k < files.size(); ++k) {
+  for (const auto k : each_index(files)) {
     if (!own(k)) continue;
     const std::string words = estimation::words_of(*own(k));
     if (words.empty()) continue;
@@ -225,7 +225,7 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files, const Parts& part
   const bool alone = files.size() == 1;
   MapContents& map = draft.map;
   map.surface = model_surface(fitting.estimate);
-  for (std::size_t k = 0; k < parts.size(); ++k)
+  for (const auto k : each_index(parts))
     parts[k]->add_to(draft, fitting, k, alone ? std::string{} : files[k].name);
   map.name = std::visit([](const auto& one) { return one.name; }, files.front().measured);
   map.domain = fitting.input.domain;
@@ -259,21 +259,20 @@ tl::expected<Fitting, FitFailure> Fitting::of(estimation::EstimationInput input)
   if (!estimate) {
     constexpr FitReason kReasons[] = {FitReason::point_unreachable, FitReason::rank_deficient,
                                       FitReason::not_converged};  // by EstimationReason
-    return failed(kReasons[static_cast<std::size_t>(estimate.error().reason)],
-                  estimate.error().sentence());
+    return failed(kReasons[as_size(estimate.error().reason)], estimate.error().sentence());
   }
   return Fitting{std::move(input), *std::move(estimate)};
 }
 
-model::MarkPoint Fitting::in_frame(std::size_t file, model::MarkPoint mark) const {
+MarkPoint Fitting::in_frame(std::size_t file, MarkPoint mark) const {
   if (file == 0) return mark;
   return estimate.observations[0].sheet.to_mark(estimate.observations[file].sheet.to_bed(mark));
 }
 
-tl::expected<void, FitFailure> check_readings_of(const model::Machine& machine,
+tl::expected<void, FitFailure> check_readings_of(const Machine& machine,
                                                  const std::vector<ExtraReading>& readings,
                                                  const char* what) {
-  const model::Machine read = with_readings(machine, readings);
+  const Machine read = with_readings(machine, readings);
   std::string problems;
   std::vector<model::MachineProblem> found = model::problems_of(read);
   append_all(found, model::effects::problems_of_effects(read));
@@ -292,10 +291,10 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
   const std::vector<MeasuredFile>& files = measured.files();
   if (files.empty()) throw std::invalid_argument("no files to fit");
   auto parts = parts_of(files, options.progress);
-  if (!parts) return tl::unexpected(parts.error());
+  if (!parts) return failed(parts);
   const bool alone = files.size() == 1;
   if (!alone) {
-    if (auto stated = state_noises(files, *parts); !stated) return tl::unexpected(stated.error());
+    if (auto stated = state_noises(files, *parts); !stated) return failed(stated);
   }
   estimation::EstimationInput input = estimation_input(*parts);
   input.progress = options.progress;
@@ -304,9 +303,8 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
   input.step = {"settings and correction", alone ? 1 : 2, steps};
   auto fitting =
       alone ? fit_alone(*parts->front(), std::move(input)) : Fitting::of(std::move(input));
-  if (!fitting) return tl::unexpected(fitting.error());
-  if (auto good = check_enough_good(files, *parts, fitting->estimate); !good)
-    return tl::unexpected(good.error());
+  if (!fitting) return failed(fitting);
+  if (auto good = check_enough_good(files, *parts, fitting->estimate); !good) return failed(good);
   tell(options.progress, {"the map's own error", steps, steps});
   MapDraft draft;
   CompensationMap map = map_of(files, *parts, *fitting, draft);

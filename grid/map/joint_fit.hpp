@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "grid/map/fit.hpp"
-#include "grid/map/fitted_distances.hpp"
 #include "grid/map/fitted_points.hpp"
 #include "grid/observation/measured.hpp"
 

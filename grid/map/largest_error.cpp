@@ -37,9 +37,9 @@ ModelSurface& surface_of(MapContents& contents) {
 }
 
 /// Differences of the lengths at one place, a row for each chain; empty if a map does not answer.
-Matrix2Xd differences_at(const std::vector<MapDifference>& differences, model::MarkPoint mark) {
+Matrix2Xd differences_at(const std::vector<MapDifference>& differences, MarkPoint mark) {
   Matrix2Xd at(2, std::ssize(differences));
-  for (std::size_t k = 0; k < differences.size(); ++k) {
+  for (const auto k : each_index(differences)) {
     const auto from = differences[k].from.lengths(mark);
     const auto to = differences[k].to.lengths(mark);
     if (!from || !to) return Matrix2Xd(2, 0);
@@ -54,13 +54,13 @@ MatrixXd on_splines(const interp::BsplineBasis& basis,
   // Two places for each function of an axis determine the splines; the ridge holds those that no place is near.
   constexpr int kPerFunction = 2;
   constexpr double kRidge = 1e-6;
-  const std::vector<model::MarkPoint> marks =
-      raster(basis.rectangle(), kPerFunction * static_cast<int>(basis.columns_x()),
-             kPerFunction * static_cast<int>(basis.columns_y()), RasterOf::nodes);
+  const std::vector<MarkPoint> marks =
+      raster(basis.rectangle(), kPerFunction * as_int(basis.columns_x()),
+             kPerFunction * as_int(basis.columns_y()), RasterOf::nodes);
   const auto count = std::ssize(differences);
   MatrixXd design(std::ssize(marks), basis.size()), response(std::ssize(marks), 2 * count);
   Index used = 0;
-  for (const model::MarkPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     const Matrix2Xd at = differences_at(differences, mark);
     if (at.cols() != count) continue;
     design.row(used) = basis.row(mark.x_mm, mark.y_mm);
@@ -68,8 +68,7 @@ MatrixXd on_splines(const interp::BsplineBasis& basis,
   }
   MatrixXd normal = linear::gram(design.topRows(used));
   normal.diagonal().array() += kRidge;
-  const MatrixXd right =
-      linear::product(linear::transposed(design.topRows(used)), response.topRows(used));
+  const MatrixXd right = linear::inner(design.topRows(used), response.topRows(used));
   return linear::Cholesky(std::move(normal)).solve(right).reshaped(2 * basis.size(), count);
 }
 
@@ -96,7 +95,7 @@ RowVectorXd LargestError::largest_mm2() const {
   MatrixXd errors = linear::product(spread_mm_.topRows(2 * waiting_), draws_);
   errors.colwise() += expected_mm_.head(2 * waiting_);
   RowVectorXd largest = taken_mm2_;
-  for (Index k = 0; k < waiting_; ++k)
+  for (const Index k : each_below(waiting_))
     largest = largest.cwiseMax(errors.middleRows<2>(2 * k).colwise().squaredNorm());
   return largest;
 }
@@ -104,7 +103,7 @@ RowVectorXd LargestError::largest_mm2() const {
 double LargestError::bound_mm() const {
   if (taken_mm2_.size() == 0) return 0.0;
   RowVectorXd sorted = largest_mm2();
-  const auto at = static_cast<Index>(kLevel * static_cast<double>(kDraws));
+  const auto at = static_cast<Index>(kLevel * as_double(kDraws));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
   return std::sqrt(sorted[at]);
 }
@@ -122,7 +121,7 @@ CompensationMap with_differences(const CompensationMap& map,
   ModelSurface& surface = surface_of(contents);
   const MatrixXd splines = on_splines(surface.residual.basis, differences);
   MatrixXd directions = MatrixXd::Zero(surface.columns.total(), splines.cols());
-  directions.middleRows(surface.columns.spline(model::Side::left), splines.rows()) = splines;
+  directions.middleRows(surface.columns.spline(Side::left), splines.rows()) = splines;
   surface.covariance_factor =
       lower_factor(linear::outer(surface.covariance_factor) + linear::outer(directions));
   return with_expected_error(std::move(contents));

@@ -21,8 +21,8 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

@@ -2,7 +2,6 @@
 #include "grid/map/lattice_residual.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "grid/containers.hpp"
@@ -12,8 +11,6 @@
 
 namespace chaintrue::grid {
 namespace {
-
-using model::Side;
 
 /// Marks within this of a line lie on it.
 constexpr double kOnLineMm = 0.01;
@@ -45,7 +42,7 @@ Index line_at(const std::vector<double>& lines_mm, double coordinate_mm) {
 
 /// The node of each point of the fit; rejected points and places without a point are empty nodes.
 std::optional<LatticeNodes> places_of(const std::vector<FittedPoint>& points) {
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   Index good = 0;
   for (const FittedPoint& point : points) {
     marks.push_back(point.point.mark);
@@ -60,20 +57,20 @@ std::optional<LatticeNodes> places_of(const std::vector<FittedPoint>& points) {
 }
 
 /// Measured minus the calibrated machine with its chains' scales, at every node; empty ones NaN.
-model::PerSide<MatrixXd> left_by_machine(const estimation::Estimate& estimate,
-                                         const std::vector<FittedPoint>& points,
-                                         const LatticeNodes& places) {
+PerSide<MatrixXd> left_by_machine(const estimation::Estimate& estimate,
+                                  const std::vector<FittedPoint>& points,
+                                  const LatticeNodes& places) {
   const MatrixXd none = MatrixXd::Constant(places.visits.rows(), places.visits.cols(), kEmpty);
-  model::PerSide<MatrixXd> values{none, none};
-  const model::ReadingModel model(estimate.machine);
-  const model::SheetPlacement& sheet = estimate.observations.front().sheet;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  PerSide<MatrixXd> values{none, none};
+  const ReadingModel model(estimate.machine);
+  const SheetPlacement& sheet = estimate.observations.front().sheet;
+  for (const auto i : each_index(points)) {
     if (points[i].is_rejected()) continue;
     const LengthPoint& point = points[i].point;
     // The fit reached every point with these settings.
-    const model::ChainLengths lengths = model.at(sheet.to_bed(point.mark)).value().lengths;
+    const ChainLengths lengths = model.at(sheet.to_bed(point.mark)).value().lengths;
     const auto [ix, iy] = places.of_mark[i];
-    for (const Side side : model::kSides) {
+    for (const Side side : kSides) {
       values[side](ix, iy) =
           point.lengths[side] - (1.0 + estimate.surface.scale[side]) * lengths[side];
     }
@@ -98,11 +95,11 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
                                       const std::vector<FittedPoint>& points) {
   const auto places = places_of(points);
   if (!places) return std::nullopt;
-  const model::PerSide<MatrixXd> values = left_by_machine(estimate, points, *places);
+  const PerSide<MatrixXd> values = left_by_machine(estimate, points, *places);
   LatticeFit lattice;
   std::vector<Vector2d> errors_here;
   std::vector<Vector2d> errors_there;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     const auto [ix, iy] = places->of_mark[i];
     Vector2d residual = points[i].left_out;
     if (!points[i].is_rejected()) {
@@ -121,7 +118,7 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
   lattice.residual.x_nodes_mm = places->x_nodes_mm;
   lattice.residual.y_nodes_mm = places->y_nodes_mm;
   lattice.residual.doubt_mm = MatrixXd::Zero(values.left.rows(), values.left.cols());
-  for (Side side : model::kSides) {
+  for (Side side : kSides) {
     const auto filled = interp::fill_missing(places->x_nodes_mm, places->y_nodes_mm, values[side]);
     if (!filled) return std::nullopt;
     lattice.residual.values_mm[side] = filled->values;
@@ -134,15 +131,15 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
   return lattice;
 }
 
-LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks) {
+LatticeNodes lattice_nodes(const std::vector<MarkPoint>& marks) {
   std::vector<double> x, y;
-  for (const model::MarkPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     x.push_back(mark.x_mm);
     y.push_back(mark.y_mm);
   }
   LatticeNodes nodes{lines_at(std::move(x)), lines_at(std::move(y)), {}, {}};
   nodes.visits = Eigen::MatrixXi::Zero(std::ssize(nodes.x_nodes_mm), std::ssize(nodes.y_nodes_mm));
-  for (const model::MarkPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     const auto [ix, iy] = nodes.of_mark.emplace_back(
         std::array{line_at(nodes.x_nodes_mm, mark.x_mm), line_at(nodes.y_nodes_mm, mark.y_mm)});
     ++nodes.visits(ix, iy);

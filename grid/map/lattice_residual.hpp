@@ -16,7 +16,7 @@
 #include <array>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -24,7 +24,7 @@ namespace chaintrue::grid {
 struct LatticeResidual {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;
-  model::PerSide<MatrixXd> values_mm;  ///< (ix, iy)
+  PerSide<MatrixXd> values_mm;  ///< (ix, iy)
   /// One sigma of a node's value beyond the readings' noise; zero if it was measured.
   MatrixXd doubt_mm;
   /// One sigma between the nodes, from predictions of left-out nodes by their lines.
@@ -39,6 +39,6 @@ struct LatticeNodes {
   std::vector<std::array<Index, 2>> of_mark;
   Eigen::MatrixXi visits;  ///< marks at each node, (ix, iy)
 };
-LatticeNodes lattice_nodes(const std::vector<model::MarkPoint>& marks);
+LatticeNodes lattice_nodes(const std::vector<MarkPoint>& marks);
 
 }  // namespace chaintrue::grid

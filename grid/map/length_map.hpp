@@ -17,8 +17,8 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "grid/eigen.hpp"
 #include "grid/map/measured_area.hpp"
+#include "interp/eigen.hpp"
 #include "interp/surface.hpp"
 #include "model/failure.hpp"
 #include "model/kinematics.hpp"
@@ -37,8 +37,8 @@ using MapFailure = Failure<MapReason>;
 [[nodiscard]] MapFailure unreachable(const model::MechanismFailure& why);
 
 struct LengthsAnswer {
-  VectorXd lengths_mm;        ///< in the order of the names
-  model::ChainLengths sigma;  ///< 1 sigma of the first two
+  VectorXd lengths_mm;  ///< in the order of the names
+  ChainLengths sigma;   ///< 1 sigma of the first two
   /// Root of the summed variances of the tool's x and y; empty: not known.
   std::optional<double> tool_sigma_mm;
   MapStatus status = MapStatus::inside;
@@ -50,19 +50,16 @@ class LengthMap {
   virtual ~LengthMap() = default;
   /// Words for the lengths: left, right.
   virtual std::span<const std::string_view> length_names() const = 0;
-  [[nodiscard]] virtual tl::expected<LengthsAnswer, MapFailure> query(
-      model::BedPoint point) const = 0;
+  [[nodiscard]] virtual tl::expected<LengthsAnswer, MapFailure> query(BedPoint point) const = 0;
   /// Only the first two, several times faster: for points of a path between its corners.
-  [[nodiscard]] virtual tl::expected<model::ChainLengths, MapFailure> lengths(
-      model::BedPoint point) const = 0;
+  [[nodiscard]] virtual tl::expected<ChainLengths, MapFailure> lengths(BedPoint point) const = 0;
   /// The tool's position for these lengths.
-  [[nodiscard]] virtual tl::expected<model::BedPoint, MapFailure> tool(
-      model::ChainLengths lengths) const = 0;
-  [[nodiscard]] virtual MapStatus status(model::BedPoint point) const = 0;
+  [[nodiscard]] virtual tl::expected<BedPoint, MapFailure> tool(ChainLengths lengths) const = 0;
+  [[nodiscard]] virtual MapStatus status(BedPoint point) const = 0;
   /// Uncertainty of the tool sent to a point which lengths() answers: x and y, mm, one column for
   /// one sigma of each direction of the posterior, the same directions everywhere. No columns if
   /// nothing is uncertain.
-  virtual Matrix2Xd tool_spread(model::BedPoint /*point*/) const { return Matrix2Xd(2, 0); }
+  virtual Matrix2Xd tool_spread(BedPoint /*point*/) const { return Matrix2Xd(2, 0); }
   /// Where lengths() may answer.
   virtual const interp::Rectangle& domain() const = 0;
 

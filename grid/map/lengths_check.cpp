@@ -10,9 +10,9 @@
 namespace chaintrue::grid {
 namespace {
 
-void name_rows(const observation::BeltLengthReadings& observed, const model::Mechanism& mechanism,
+void name_rows(const observation::BeltLengthReadings& observed, const Mechanism& mechanism,
                CheckReadings& readings) {
-  for (std::size_t u = 0; u < observed.units().size(); ++u) {
+  for (const auto u : each_index(observed.units())) {
     const observation::Unit& unit = observed.units()[u];
     const std::string name = observed.name_of(u);
     const observation::LengthsAtPlace& place = observed.readings()[observed.place_of(u)];
@@ -33,7 +33,7 @@ MatrixXd by_length_of(const observation::LengthsAtPlace& place,
   if (!place.known) return unit.by_reading;
   MatrixXd by_length = MatrixXd::Zero(unit.covariance.rows(), place.lengths_mm.size());
   Index row = 0;
-  for (Index i = 0; i < by_length.cols(); ++i) {
+  for (const Index i : each_below(by_length.cols())) {
     if (place.counts(i)) by_length(row++, i) = 1.0;
   }
   return by_length;
@@ -58,7 +58,7 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   readings.lengths_mm.resize(lengths * units);
   readings.by_length.resize(observed.rows(), lengths * units);
   std::vector<Eigen::Triplet<double>> entries;
-  for (Index u = 0; u < units; ++u) {
+  for (const Index u : each_below(units)) {
     const observation::UnitState& unit = line->units[as_size(u)];
     const std::size_t at = observed.place_of(as_size(u));
     const observation::LengthsAtPlace& place = observed.readings()[at];
@@ -66,8 +66,8 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
     readings.lengths_mm.segment(lengths * u, lengths) =
         place.lengths_mm - observed.block_line(view, {{at}, {}}, false)->residual_mm;
     const MatrixXd by_length = by_length_of(place, unit);
-    for (Index i = 0; i < by_length.rows(); ++i) {
-      for (Index k = 0; k < lengths; ++k)
+    for (const Index i : each_below(by_length.rows())) {
+      for (const Index k : each_below(lengths))
         entries.emplace_back(observed.units()[as_size(u)].first_row + i, lengths * u + k,
                              by_length(i, k));
     }

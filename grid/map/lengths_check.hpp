@@ -17,16 +17,16 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
-#include "grid/map/check_words.hpp"
+#include "grid/map/check_evidence.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
 /// A mechanism with its calibrated values and their covariance.
 struct FittedMechanism {
-  std::shared_ptr<const model::Mechanism> mechanism;
+  std::shared_ptr<const Mechanism> mechanism;
   MatrixXd covariance;     ///< of its parameters
   double length_mm = 0.0;  ///< one sigma of a length that is read
   /// For the fit that found the noise; infinite: it is known.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -37,7 +36,7 @@ double noise_at_tool_mm(const CompensationMap& map) {
                      2.0 * noise.position_mm * noise.position_mm);
     ++count;
   }
-  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
+  return count > 0 ? std::sqrt(variance_mm2 / as_double(count)) : 0.0;
 }
 
 MirrorTest test_mirror(const CompensationMap& map) {
@@ -48,8 +47,8 @@ MirrorTest test_mirror(const CompensationMap& map) {
   const interp::Rectangle& domain = map.contents().domain;
   const double middle_mm = map.machine() == nullptr ? 0.5 * (domain.x_min + domain.x_max) : 0.0;
   for (const MapPoint& point : map.contents().points) {
-    const model::BedPoint bed = map.to_bed(point.mark);
-    const model::MarkPoint mirrored = map.to_mark({2.0 * middle_mm - bed.x_mm, bed.y_mm});
+    const BedPoint bed = map.to_bed(point.mark);
+    const MarkPoint mirrored = map.to_mark({2.0 * middle_mm - bed.x_mm, bed.y_mm});
     const MapStatus status = map.status(mirrored);
     if (point.bad || (status != MapStatus::inside && status != MapStatus::edge)) continue;
     const auto here = map.query(point.mark);

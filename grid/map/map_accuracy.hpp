@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 

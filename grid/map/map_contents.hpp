@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/map/error_summary.hpp"
 #include "grid/map/lattice_residual.hpp"
 #include "grid/map/measured_area.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "interp/eigen.hpp"
 #include "interp/tensor_spline.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
@@ -22,7 +22,7 @@ namespace chaintrue::grid {
 
 /// One setting, before and after.
 struct SettingResult {
-  model::Setting setting;
+  Setting setting;
   double stated = 0.0;
   double calibrated = 0.0;
   double sigma = 0.0;
@@ -47,7 +47,7 @@ struct MapAccuracy {
   HeldOutError blocked;
   /// For the tool over the measured part of the bed (controller_error.hpp).
   ErrorSummary expected_tool;
-  model::MarkPoint expected_worst_at;  ///< where it is largest
+  MarkPoint expected_worst_at;  ///< where it is largest
 };
 
 enum class NoiseSource {
@@ -71,8 +71,8 @@ struct MapNoise {
 /// A measured point in millimetres at the tool: where it landed minus where each model puts it. For
 /// a point with a command, "as stated" is the commanded place.
 struct MapPoint {
-  model::MarkPoint mark;
-  model::ChainLengths lengths;
+  MarkPoint mark;
+  ChainLengths lengths;
   bool bad = false;
   /// Left-out residual in sigmas, both chains together.
   double distance_sigmas = 0.0;
@@ -88,7 +88,7 @@ struct MirrorTest {
   std::size_t points = 0;  ///< whose mirror image lies on the map
   ErrorSummary difference;
   double mean_mm = 0.0;
-  model::MarkPoint worst_at;
+  MarkPoint worst_at;
   double worst_signed_mm = 0.0;
   /// No point differs by more than 4.5 sigmas of noise and map.
   bool holds = true;
@@ -107,11 +107,11 @@ struct DistancesUsed {
 
 /// Surface on the calibrated model.
 struct ModelSurface {
-  model::Machine machine;  ///< calibrated
-  model::SheetPlacement sheet;
+  Machine machine;  ///< calibrated
+  SheetPlacement sheet;
   ResidualSurface residual;
   FitColumns columns;
-  std::vector<model::Setting> settings;
+  std::vector<Setting> settings;
   /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
   MatrixXd covariance_factor;
   /// Replaces the residual's splines (not its chain scales) if noise-free readings lie on a
@@ -123,7 +123,7 @@ struct ModelSurface {
 struct DirectSurface {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;
-  model::PerSide<MatrixXd> lengths_mm;  ///< (ix, iy)
+  PerSide<MatrixXd> lengths_mm;  ///< (ix, iy)
   interp::TensorEnds ends;
   /// Estimated by leaving out inner lines.
   double interpolation_sigma_mm = 0.0;
@@ -148,7 +148,7 @@ struct OutsideRule {
 struct MapContents {
   std::string name;
   std::variant<DirectSurface, ModelSurface> surface;
-  std::vector<model::MarkPoint> hull;
+  std::vector<MarkPoint> hull;
   double edge_mm = 0.0;
   interp::Rectangle domain;
   OutsideRule outside;
@@ -167,8 +167,8 @@ struct MapContents {
 };
 
 struct MapAnswer {
-  model::ChainLengths lengths;
-  model::ChainLengths sigma;
+  ChainLengths lengths;
+  ChainLengths sigma;
   /// For the two lengths, including their correlation.
   Matrix2d covariance;
   /// d(left, right)/d(mark)
@@ -180,7 +180,7 @@ struct MapAnswer {
 
 /// Lengths and their derivative by the mark.
 struct MapLengths {
-  model::ChainLengths lengths;
+  ChainLengths lengths;
   Matrix2d mark_jacobian;
 };
 

@@ -6,15 +6,10 @@
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/raster.hpp"
-#include "interp/tensor_spline.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
-using model::MarkPoint;
-using model::Setting;
-using model::Side;
 
 /// One chain's splines of a ResidualSurface.
 class SplineSurface final : public interp::Surface {
@@ -47,7 +42,7 @@ class DesignSpread {
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading->position_jacobian * sheet_.sensitivity(mark);
     Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
-    for (std::size_t i = 0; i < settings_.size(); ++i) {
+    for (const auto i : each_index(settings_)) {
       const Setting setting = settings_[i];
       const Vector2d slope = model::is_of_sheet(setting)
                                  ? Vector2d(by_sheet.col(model::sheet_column(setting)))
@@ -56,10 +51,10 @@ class DesignSpread {
       add(as_index(i), slope[1], spread.col(1));
     }
     const interp::BasisSupport support = basis_.at(mark.x_mm, mark.y_mm);
-    for (const Side side : model::kSides) {
+    for (const Side side : kSides) {
       auto own = spread.col(row_of(side));
       add(columns_.scale(side), reading->lengths[side], own);
-      for (std::size_t k = 0; k < support.index.size(); ++k)
+      for (const auto k : each_index(support.index))
         add(columns_.spline(side) + support.index[k], support.value[k], own);
     }
     return spread.transpose();
@@ -71,8 +66,8 @@ class DesignSpread {
     sum.head(column + 1) += slope * factor_.col(column).head(column + 1);
   }
 
-  model::SheetPlacement sheet_;
-  model::ReadingModel model_;
+  SheetPlacement sheet_;
+  ReadingModel model_;
   std::vector<Setting> settings_;
   FitColumns columns_;
   interp::BsplineBasis basis_;
@@ -100,7 +95,7 @@ struct NodeSpread {
         noise.factor_found * noise.factor_found *
         observation::covariance_of({noise.length_mm, noise.position_mm}, here.mark_jacobian);
     Matrix2Xd spread(2, 2 * weights.size());
-    for (Index i = 0; i < weights.size(); ++i) {
+    for (const Index i : each_below(weights.size())) {
       const double own_mm2 = std::pow(doubt_mm.reshaped()[i], 2) + between;
       const Matrix2d covariance = node + own_mm2 * Matrix2d::Identity();
       // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.
@@ -145,11 +140,11 @@ MapField::MapField(const MapContents& contents) {
       const auto& [x, y, values_mm, doubt_mm, sigma_mm] = *surface.lattice;
       const auto quintic =
           std::make_shared<const interp::TensorAxes>(x, y, interp::TensorEnds{}, 5);
-      for (const Side side : model::kSides)
+      for (const Side side : kSides)
         surfaces_[side] = std::make_shared<const interp::TensorSpline>(quintic, values_mm[side]);
       spread_at_ = NodeSpread{{x, y, doubt_mm}, doubt_mm, sigma_mm, 1.0, contents.noise};
     } else {
-      for (const Side side : model::kSides) {
+      for (const Side side : kSides) {
         surfaces_[side] = std::make_shared<const SplineSurface>(
             surface.residual.basis, surface.residual.coefficients[side]);
       }
@@ -179,7 +174,7 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
     here.lengths = {own.value[0], own.value[1]};
     here.mark_jacobian << own.dx[0], own.dy[0], own.dx[1], own.dy[1];
   } else {
-    for (const Side side : model::kSides) {
+    for (const Side side : kSides) {
       const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
       auto slope = here.mark_jacobian.row(row_of(side));
       here.lengths[side] = here.lengths[side] * (1.0 + scale_[side]) + own.value;
@@ -199,7 +194,7 @@ tl::expected<MapSpread, MapFailure> MapField::at(MarkPoint mark, Asked asked) co
 Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
   Vector2d change = Vector2d::Zero();
   if (beyond_->hull.contains(mark.x_mm, mark.y_mm)) return change;
-  for (const Side side : model::kSides) {
+  for (const Side side : kSides) {
     const Index row = row_of(side);
     const interp::ValueGradient own = surfaces_[side]->at(mark.x_mm, mark.y_mm);
     const interp::ValueGradient reply =

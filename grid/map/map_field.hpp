@@ -10,10 +10,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/chain_rows.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/map_contents.hpp"
+#include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/measured_region.hpp"
 #include "interp/spline_pair.hpp"
 #include "interp/tensor_spline.hpp"
@@ -38,30 +38,30 @@ class MapField {
   enum class Asked { lengths, spread };
   /// The spread only if asked for. If the map's continuation beyond the points differs from the
   /// surfaces' own, the difference is a separate direction, one sigma.
-  [[nodiscard]] tl::expected<MapSpread, MapFailure> at(model::MarkPoint mark,
+  [[nodiscard]] tl::expected<MapSpread, MapFailure> at(MarkPoint mark,
                                                        Asked asked = Asked::lengths) const;
 
   /// The marks' sheet on the bed.
-  const model::SheetPlacement& sheet() const { return sheet_; }
+  const SheetPlacement& sheet() const { return sheet_; }
 
   /// The uncertainty of an answer; what the machine reads at the mark is null for a map without one.
   using SpreadAt =
-      std::function<Matrix2Xd(model::MarkPoint, const MapLengths&, const model::PointReading*)>;
+      std::function<Matrix2Xd(MarkPoint, const MapLengths&, const model::PointReading*)>;
 
  private:
   /// Adds the map's continuation minus the surfaces' own. \returns its lengths; zero within the
   /// points.
-  Vector2d add_change(model::MarkPoint mark, MapLengths& here) const;
+  Vector2d add_change(MarkPoint mark, MapLengths& here) const;
 
   struct Beyond {
     interp::ConvexHull hull;
     interp::RegionPolicy policy;
   };
 
-  model::SheetPlacement sheet_;
-  std::optional<model::ReadingModel> machine_;
-  model::PerSide<double> scale_{};
-  model::PerSide<std::shared_ptr<const interp::Surface>> surfaces_;
+  SheetPlacement sheet_;
+  std::optional<ReadingModel> machine_;
+  PerSide<double> scale_{};
+  PerSide<std::shared_ptr<const interp::Surface>> surfaces_;
   std::optional<interp::SplinePair> pair_;  ///< a direct map's two surfaces, evaluated together
   SpreadAt spread_at_;
   std::optional<Beyond> beyond_;  ///< none: the surfaces' own continuation

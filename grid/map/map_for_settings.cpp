@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/controllers/payout.hpp"
 
@@ -30,7 +30,7 @@ CompensationMap map_for_settings(const CompensationMap& map, const model::Contro
   auto* surface = std::get_if<ModelSurface>(&contents.surface);
   if (surface == nullptr) throw precondition("settings of a map without a machine");
   surface->machine.controller = now;
-  model::Machine believed = stated_machine(map).value();
+  Machine believed = stated_machine(map).value();
   believed.controller = now;
   const auto controller = model::make_controller_kinematics(believed);
   for (MapPoint& point : contents.points) tell_of(*controller, point);

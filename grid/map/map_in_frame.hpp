@@ -6,9 +6,10 @@
 
 #include <array>
 
-#include "grid/eigen.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -26,40 +27,35 @@ class MapInFrame final : public LengthMap {
     return kNames;
   }
 
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(
-      model::BedPoint point) const override {
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(BedPoint point) const override {
     const auto found = map_.query(mark_of(point));
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     return LengthsAnswer{vector_of(found->lengths), found->sigma, found->tool_sigma_mm,
                          found->status};
   }
 
-  [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
-      model::BedPoint point) const override {
+  [[nodiscard]] tl::expected<ChainLengths, MapFailure> lengths(BedPoint point) const override {
     const auto found = map_.lengths(mark_of(point));
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     return found->lengths;
   }
 
-  [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
-      model::ChainLengths lengths) const override {
+  [[nodiscard]] tl::expected<BedPoint, MapFailure> tool(ChainLengths lengths) const override {
     const auto found = map_.inverse(lengths);
-    if (!found) return tl::unexpected(found.error());
+    if (!found) return failed(found);
     return frame_ == MapFrame::bed ? map_.to_bed(*found) : model::identity_placement(*found);
   }
 
-  [[nodiscard]] MapStatus status(model::BedPoint point) const override {
+  [[nodiscard]] MapStatus status(BedPoint point) const override {
     return map_.status(mark_of(point));
   }
   /// In directions of the marks' axes.
-  Matrix2Xd tool_spread(model::BedPoint point) const override {
-    return map_.tool_spread(mark_of(point));
-  }
+  Matrix2Xd tool_spread(BedPoint point) const override { return map_.tool_spread(mark_of(point)); }
 
   const interp::Rectangle& domain() const override { return map_.contents().domain; }
 
  private:
-  model::MarkPoint mark_of(model::BedPoint point) const {
+  MarkPoint mark_of(BedPoint point) const {
     return frame_ == MapFrame::bed ? map_.to_mark(point) : model::identity_placement(point);
   }
 

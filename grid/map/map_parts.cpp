@@ -29,24 +29,24 @@ ModelSurface model_surface(const estimation::Estimate& estimate) {
           {}};
 }
 
-std::vector<SettingResult> setting_results(const model::Machine& stated,
+std::vector<SettingResult> setting_results(const Machine& stated,
                                            const estimation::Estimate& estimate,
                                            const std::optional<SheetUncertainty>& sheet) {
   constexpr double kOffSigmas = 3.0;
-  const model::SheetPlacement& placed = estimate.observations.front().sheet;
+  const SheetPlacement& placed = estimate.observations.front().sheet;
   const double placement[] = {placed.x_mm, placed.y_mm, placed.rotation_rad};
   std::vector<SettingResult> results;
-  for (std::size_t i = 0; i < estimate.settings.size(); ++i) {
+  for (const auto i : each_index(estimate.settings)) {
     const auto at = as_index(i);
     SettingResult result{estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)),
                          false};
-    if (i < model::kMachineSettings.size()) {
+    if (i < kMachineSettings.size()) {
       result.stated = model::stated_value(stated, result.setting);
       result.calibrated = model::stated_value(estimate.machine, result.setting);
       const double sigma = model::stated_sigma(stated, result.setting);
       result.off = std::abs(result.calibrated - result.stated) > kOffSigmas * sigma;
     } else {
-      const std::size_t which = i - model::kMachineSettings.size();
+      const std::size_t which = i - kMachineSettings.size();
       result.calibrated = placement[which];
       if (sheet) {
         const double sigma = which < 2 ? sheet->shift_mm : 1e-3 * sheet->rotation_mrad;

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -19,7 +19,7 @@ ModelSurface model_surface(const estimation::Estimate& estimate);
 /// `stated` is the machine that the estimate started from, `sheet` the prior of the first sheet:
 /// without one its placement is exact.
 [[nodiscard]] std::vector<SettingResult> setting_results(
-    const model::Machine& stated, const estimation::Estimate& estimate,
+    const Machine& stated, const estimation::Estimate& estimate,
     const std::optional<SheetUncertainty>& sheet);
 /// A sentence for each setting that is off.
 void note_settings_off(const std::vector<SettingResult>& settings, std::vector<std::string>& notes);

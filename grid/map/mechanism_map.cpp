@@ -4,14 +4,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "grid/plane_vectors.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 
-model::BedPoint SheetInFrame::on_sheet(model::ToolPosition position) const {
-  model::MarkPoint raw{factor * (position.x_mm - origin.x_mm),
-                       factor * (position.y_mm - origin.y_mm)};
+BedPoint SheetInFrame::on_sheet(ToolPosition position) const {
+  MarkPoint raw{factor * (position.x_mm - origin.x_mm), factor * (position.y_mm - origin.y_mm)};
   if (displacement) {
     const Vector2d moved = displacement->at(raw);
     raw.x_mm += moved.x();
@@ -20,15 +18,15 @@ model::BedPoint SheetInFrame::on_sheet(model::ToolPosition position) const {
   return laid.to_bed(raw);
 }
 
-model::ToolPosition SheetInFrame::in_frame(model::BedPoint sheet) const {
+ToolPosition SheetInFrame::in_frame(BedPoint sheet) const {
   // Each round reduces the error to a few thousandths, the slope of the displacement.
   constexpr int kMostRounds = 40;
   constexpr double kConvergedMm = 1e-10;
-  const model::MarkPoint there = laid.to_mark(sheet);
-  model::MarkPoint raw = there;
+  const MarkPoint there = laid.to_mark(sheet);
+  MarkPoint raw = there;
   for (int round = 0; displacement && round < kMostRounds; ++round) {
     const Vector2d by = displacement->at(raw);
-    const model::MarkPoint next{there.x_mm - by.x(), there.y_mm - by.y()};
+    const MarkPoint next{there.x_mm - by.x(), there.y_mm - by.y()};
     const double moved = distance_mm(next, raw);
     raw = next;
     if (moved < kConvergedMm) break;
@@ -36,10 +34,9 @@ model::ToolPosition SheetInFrame::in_frame(model::BedPoint sheet) const {
   return {origin.x_mm + raw.x_mm / factor, origin.y_mm + raw.y_mm / factor};
 }
 
-model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
-                              const std::vector<model::BedPoint>& to) {
+SheetPlacement laid_on(const std::vector<MarkPoint>& from, const std::vector<BedPoint>& to) {
   Matrix2Xd a(2, std::ssize(from)), b(2, std::ssize(from));
-  for (std::size_t i = 0; i < from.size(); ++i) {
+  for (const auto i : each_index(from)) {
     a.col(as_index(i)) = vector_of(from[i]);
     b.col(as_index(i)) = vector_of(to[i]);
   }
@@ -51,7 +48,7 @@ MechanismSpread spread_about(const VectorXd& values, const MatrixXd& covariance,
                              const PlacedAt& placed) {
   MechanismSpread spread{placed(values), {}};
   const linear::SymmetricEigen parts(covariance);
-  for (Index i = 0; i < values.size(); ++i) {
+  for (const Index i : each_below(values.size())) {
     const double variance = parts.eigenvalues()[i];
     // Below this a direction adds less than rounding.
     if (!(variance > 1e-12 * parts.eigenvalues().maxCoeff())) continue;
@@ -61,11 +58,11 @@ MechanismSpread spread_about(const VectorXd& values, const MatrixXd& covariance,
 }
 
 MechanismMap MechanismMap::of(const FittedMechanism& fitted,
-                              const std::vector<model::BedPoint>& measured) {
+                              const std::vector<BedPoint>& measured) {
   const PlacedMechanism best{fitted.mechanism, {}};
   const model::MechanismExtent e = fitted.mechanism->extent();
-  std::vector<model::MarkPoint> points;
-  for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
+  std::vector<MarkPoint> points;
+  for (const BedPoint point : measured) points.push_back(model::identity_placement(point));
   return {best,
           spread_about(fitted.mechanism->values(), fitted.covariance,
                        [&](const VectorXd& values) {
@@ -74,7 +71,7 @@ MechanismMap MechanismMap::of(const FittedMechanism& fitted,
           MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
 }
 
-tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint point) const {
+tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(BedPoint point) const {
   if (!area_.domain().contains(point.x_mm, point.y_mm))
     return tl::unexpected(MapReason::outside_map);
   const auto found = fitted_.mechanism->predict(fitted_.sheet.in_frame(point), {},
@@ -83,7 +80,7 @@ tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint poin
   return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
 }
 
-tl::expected<model::ChainLengths, MapFailure> MechanismMap::lengths(model::BedPoint point) const {
+tl::expected<ChainLengths, MapFailure> MechanismMap::lengths(BedPoint point) const {
   if (!area_.domain().contains(point.x_mm, point.y_mm))
     return tl::unexpected(MapReason::outside_map);
   const auto found = lengths_of(fitted_, point);
@@ -91,15 +88,15 @@ tl::expected<model::ChainLengths, MapFailure> MechanismMap::lengths(model::BedPo
   return *found;
 }
 
-tl::expected<model::BedPoint, MapFailure> MechanismMap::tool(model::ChainLengths lengths) const {
+tl::expected<BedPoint, MapFailure> MechanismMap::tool(ChainLengths lengths) const {
   const auto found = fitted_.mechanism->locate_by_first(lengths);
   if (!found) return tl::unexpected(unreachable(found.error()));
   return fitted_.sheet.on_sheet(*found);
 }
 
-model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
+ChainLengths MechanismMap::sigma(BedPoint point) const {
   const auto centre = lengths_of(spread_.centre, point);
-  model::ChainLengths variance;
+  ChainLengths variance;
   for (const PlacedMechanism& other : spread_.others) {
     const auto there = lengths_of(other, point);
     if (!centre || !there) continue;
@@ -110,15 +107,15 @@ model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
   return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
 }
 
-Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
+Matrix2Xd MechanismMap::tool_spread(BedPoint point) const {
   const auto others = std::ssize(spread_.others);
   Matrix2Xd spread = Matrix2Xd::Zero(2, others + 2);
   if (const auto paid_out = lengths_of(spread_.centre, point)) {
-    for (Index i = 0; i < others; ++i) {
+    for (const Index i : each_below(others)) {
       const PlacedMechanism& other = spread_.others[as_size(i)];
       const auto there = other.mechanism->locate_by_first(*paid_out);
       if (!there) continue;
-      const model::BedPoint tool = other.sheet.on_sheet(*there);
+      const BedPoint tool = other.sheet.on_sheet(*there);
       spread.col(i) = difference(tool, point);
     }
   }
@@ -126,9 +123,9 @@ Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
   return spread;
 }
 
-std::vector<model::BedPoint> MechanismMap::hull() const {
-  std::vector<model::BedPoint> corners;
-  for (const model::MarkPoint corner : area_.hull()) corners.push_back({corner.x_mm, corner.y_mm});
+std::vector<BedPoint> MechanismMap::hull() const {
+  std::vector<BedPoint> corners;
+  for (const MarkPoint corner : area_.hull()) corners.push_back({corner.x_mm, corner.y_mm});
   return corners;
 }
 

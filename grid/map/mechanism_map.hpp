@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/lengths_check.hpp"
 #include "grid/map/tool_displacement.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/mechanism.hpp"
 
@@ -37,27 +37,26 @@ namespace chaintrue::grid {
 /// The inverse is found by fixed-point iteration: d changes by less than 0.01 mm per mm.
 struct SheetInFrame {
   /// The placement of what the mechanism cuts, on the sheet.
-  model::SheetPlacement laid;
+  SheetPlacement laid;
   /// The sheet's millimetres over those of the frame.
   double factor = 1.0;
-  model::ToolPosition origin{};
+  ToolPosition origin{};
   /// d; null: none.
   std::shared_ptr<const ToolDisplacement> displacement = nullptr;
 
-  model::ToolPosition in_frame(model::BedPoint sheet) const;
-  model::BedPoint on_sheet(model::ToolPosition position) const;
+  ToolPosition in_frame(BedPoint sheet) const;
+  BedPoint on_sheet(ToolPosition position) const;
   /// On each axis, besides the fit's covariance.
-  double own_variance_mm2(model::BedPoint sheet) const {
+  double own_variance_mm2(BedPoint sheet) const {
     return displacement ? displacement->own_variance_mm2(laid.to_mark(sheet)) : 0.0;
   }
 };
 
 /// The shift and turn that lay `from` on `to`, by least squares.
-model::SheetPlacement laid_on(const std::vector<model::MarkPoint>& from,
-                              const std::vector<model::BedPoint>& to);
+SheetPlacement laid_on(const std::vector<MarkPoint>& from, const std::vector<BedPoint>& to);
 
 struct PlacedMechanism {
-  std::shared_ptr<const model::Mechanism> mechanism;
+  std::shared_ptr<const Mechanism> mechanism;
   SheetInFrame sheet;
 };
 
@@ -76,37 +75,34 @@ class MechanismMap : public LengthMap {
       : fitted_(std::move(fitted)), spread_(std::move(spread)), area_(std::move(area)) {}
   /// In the mechanism's own frame, over its extent. \throws std::invalid_argument for fewer than
   /// three points.
-  static MechanismMap of(const FittedMechanism& fitted,
-                         const std::vector<model::BedPoint>& measured);
+  static MechanismMap of(const FittedMechanism& fitted, const std::vector<BedPoint>& measured);
 
   std::span<const std::string_view> length_names() const override {
     return fitted_.mechanism->lengths();
   }
 
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(BedPoint point) const override;
 
-  [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
-      model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<ChainLengths, MapFailure> lengths(BedPoint point) const override;
 
-  [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
-      model::ChainLengths lengths) const override;
+  [[nodiscard]] tl::expected<BedPoint, MapFailure> tool(ChainLengths lengths) const override;
 
-  [[nodiscard]] MapStatus status(model::BedPoint point) const override {
+  [[nodiscard]] MapStatus status(BedPoint point) const override {
     return area_.status(model::identity_placement(point));
   }
 
   const interp::Rectangle& domain() const override { return area_.domain(); }
   /// One sigma of the first two lengths; a point that lengths() answers.
-  model::ChainLengths sigma(model::BedPoint point) const;
+  ChainLengths sigma(BedPoint point) const;
 
-  Matrix2Xd tool_spread(model::BedPoint point) const override;
+  Matrix2Xd tool_spread(BedPoint point) const override;
 
   /// Corners of what was measured.
-  std::vector<model::BedPoint> hull() const;
+  std::vector<BedPoint> hull() const;
 
  private:
-  static tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(
-      const PlacedMechanism& placed, model::BedPoint point) {
+  static tl::expected<ChainLengths, model::MechanismFailure> lengths_of(
+      const PlacedMechanism& placed, BedPoint point) {
     return placed.mechanism->first_lengths(placed.sheet.in_frame(point));
   }
 

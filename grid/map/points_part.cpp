@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
@@ -15,6 +14,7 @@
 #include "grid/map/map_parts.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "grid/raster.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -29,7 +29,7 @@ constexpr WorkStep kNoise{"how large the noise is", 3, FitPart::kStepsToFindNois
 
 /// The bed, the margin for hand-laid marks beyond it, and all points.
 interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
-  const model::Bed& bed = grid.machine->bed;
+  const Bed& bed = grid.machine->bed;
   double beyond = 0.0;
   if (grid.sheet)
     beyond = 2.0 * grid.sheet->shift_mm + 1e-3 * grid.sheet->rotation_mrad * 0.5 * bed.width_mm;
@@ -45,7 +45,7 @@ bool states_noise(const MeasuredGrid& grid) {
 
 /// A surface through every node has no residuals there, but its own left-out residuals.
 void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& lattice) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     if (points[i].is_rejected()) continue;
     points[i].residual.setZero();
     points[i].left_out = lattice.left_out_residual_mm[i];
@@ -56,8 +56,8 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
   notes.emplace_back(
       "The readings have no noise and are on full rows and columns, so the map passes through "
       "every one of them.");
-  for (Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
-    for (Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
+  for (const Index iy : each_below(lattice.doubt_mm.cols())) {
+    for (const Index ix : each_below(lattice.doubt_mm.rows())) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
       notes.push_back(
           fmt::format("No reading at ({:.0f}, {:.0f}) was used; the map there comes from the row "
@@ -102,7 +102,7 @@ class PointsPart final : public FitPart {
       alone.input.noise = noise;
       alone.input.step = kNoise;
       auto again = Fitting::of(std::move(alone.input));
-      if (!again) return tl::unexpected(again.error());
+      if (!again) return failed(again);
       alone = *std::move(again);
       return {};
     }
@@ -209,7 +209,7 @@ class PointsPart final : public FitPart {
     input.held_out_together.clear();
     const auto& units = fit.estimate.units;
     VectorXd& weights = input.fixed_weights.emplace(std::ssize(units));
-    for (std::size_t u = 0; u < units.size(); ++u)
+    for (const auto u : each_index(units))
       weights[as_index(u)] = units[u].is_rejected() ? 0.0 : 1.0;
     const auto plain = estimation::estimate(input);
     if (!plain || !plain->converged) return fit;
@@ -262,13 +262,13 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& g
                   "--surface direct");
   }
   auto corrected = corrected_data(grid);
-  if (!corrected) return tl::unexpected(corrected.error());
+  if (!corrected) return failed(corrected);
   auto points = length_points(corrected->grid);
   if (!points) return failed(FitReason::no_lengths, points.error());
   MeasuredGrid& own = corrected->grid;
   if (states_noise(own)) own.noise = not_below_rounding(*own.noise, grid);
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
-    return tl::unexpected(possible.error());
+    return failed(possible);
   auto part = std::make_unique<PointsPart>(own, *std::move(points), rounding_noise(grid));
   part->corrections = std::move(corrected->notes);
   return part;

@@ -23,17 +23,17 @@ using MapLengthsOrFailure = tl::expected<MapLengths, MapFailure>;
 
 /// answers[k] = map.query(marks[k]); nothing is allocated.
 /// \throws std::invalid_argument if the spans differ in length.
-inline void query(const CompensationMap& map, std::span<const model::MarkPoint> marks,
+inline void query(const CompensationMap& map, std::span<const MarkPoint> marks,
                   std::span<MapAnswerOrFailure> answers) {
   if (marks.size() != answers.size()) throw std::invalid_argument("an answer for each mark");
-  for (std::size_t k = 0; k < marks.size(); ++k) answers[k] = map.query(marks[k]);
+  for (const auto k : each_index(marks)) answers[k] = map.query(marks[k]);
 }
 
 /// Lengths and their derivative alone, some ten times faster (CompensationMap::lengths).
-inline void lengths(const CompensationMap& map, std::span<const model::MarkPoint> marks,
+inline void lengths(const CompensationMap& map, std::span<const MarkPoint> marks,
                     std::span<MapLengthsOrFailure> answers) {
   if (marks.size() != answers.size()) throw std::invalid_argument("an answer for each mark");
-  for (std::size_t k = 0; k < marks.size(); ++k) answers[k] = map.lengths(marks[k]);
+  for (const auto k : each_index(marks)) answers[k] = map.lengths(marks[k]);
 }
 
 }  // namespace chaintrue::grid

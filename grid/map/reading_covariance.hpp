@@ -22,8 +22,9 @@
 #include <cmath>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
@@ -37,7 +38,7 @@ struct ReadingCovariance {
   Index rows() const { return of_map.rows(); }
   VectorXd diagonal() const {
     VectorXd sum = of_map.rowwise().squaredNorm();
-    for (Index column = 0; column < shared.outerSize(); ++column) {
+    for (const Index column : each_below(shared.outerSize())) {
       for (Eigen::SparseMatrix<double>::InnerIterator at(shared, column); at; ++at)
         sum[at.row()] += at.value() * at.value();
     }
@@ -79,7 +80,7 @@ class FactoredCovariance {
     for (const MatrixXd& own : covariance.own) {
       whitening_.push_back(whitening_of_unit(own));
       const MatrixXd& white = whitening_.back();
-      for (Index i = 0; i < white.rows(); ++i) {
+      for (const Index i : each_below(white.rows())) {
         for (Index j = 0; j <= i; ++j) entries.emplace_back(rows + i, rows + j, white(i, j));
         log_root_det_ -= std::log(white(i, i));
       }
@@ -138,7 +139,7 @@ class FactoredCovariance {
         // The variance of a unit given all other readings is at most its prior variance.
         const linear::SymmetricEigen parts(linear::gram(own));
         const VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
-        const MatrixXd turned = linear::product(linear::transposed(parts.eigenvectors()), white);
+        const MatrixXd turned = linear::inner(parts.eigenvectors(), white);
         result.push_back(linear::gram(left.cwiseSqrt().asDiagonal() * turned));
         row += white.rows();
       }
@@ -174,7 +175,7 @@ class FactoredCovariance {
   MatrixXd by_columns(const MatrixXd& white) const {
     MatrixXd result(columns(), white.cols());
     result.topRows(shared_.cols()) = shared_.transpose() * white;
-    result.bottomRows(of_map_.cols()) = linear::product(linear::transposed(of_map_), white);
+    result.bottomRows(of_map_.cols()) = linear::inner(of_map_, white);
     return result;
   }
 

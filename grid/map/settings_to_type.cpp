@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
@@ -19,7 +17,6 @@ namespace chaintrue::grid {
 namespace {
 
 using model::ControllerSettings;
-using model::Machine;
 
 /// The machine with which settings are compared.
 struct Truth {
@@ -95,7 +92,7 @@ std::optional<VectorXd> errors_with(const Machine& machine, const ControllerSett
 /// The settings in force, each changed by a number of its usual errors.
 ControllerSettings changed_by(const VectorXd& sigmas, const std::vector<FreeSetting>& free,
                               ControllerSettings settings) {
-  for (std::size_t k = 0; k < free.size(); ++k)
+  for (const auto k : each_index(free))
     *(settings.*free[k].value) += free[k].sigma * sigmas[as_index(k)];
   return settings;
 }
@@ -117,7 +114,7 @@ void round_to_type(const std::vector<FreeSetting>& free, const ControllerSetting
 double rms_of(const std::vector<MeasuredPlace>& places, const VectorXd& errors) {
   double squares_mm2 = 0.0;
   int within = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     if (places[i].is_on_edge) continue;
     squares_mm2 += errors.segment<2>(2 * as_index(i)).squaredNorm();
     ++within;
@@ -156,8 +153,7 @@ std::optional<TypedSettings> best_settings(const Truth& truth,
     if (!line) return std::nullopt;
     MatrixXd normal = MatrixXd::Identity(sigmas.size(), sigmas.size());
     linear::add_gram(normal, weight, line->by_value);
-    const VectorXd pull =
-        weight * linear::product(linear::transposed(line->by_value), line->errors) + sigmas;
+    const VectorXd pull = weight * linear::inner(line->by_value, line->errors) + sigmas;
     sigmas -= linear::Cholesky(std::move(normal)).solve(pull);
   }
   ControllerSettings settings = changed_by(sigmas, free, in_force);
@@ -192,7 +188,7 @@ std::vector<std::pair<std::string, Machine>> machines_without(const Machine& mac
     stiff.chain.compliance_per_n = 0.0;
     without.emplace_back("chain_stretch", stiff);
   }
-  for (const model::AppliedEffect& applied : machine.effects) {
+  for (const AppliedEffect& applied : machine.effects) {
     const std::string& id = applied.effect;
     const bool is_known = id == "ring_radius" || id == "chain_pitch_error" || id == "chain_sag" ||
                           id == "chain_stretch" || id.starts_with("sled_");
@@ -261,7 +257,7 @@ std::optional<ErrorsLine> linearised(const ErrorsAt& errors_at, const VectorXd& 
   const auto errors = errors_at(values);
   if (!errors) return std::nullopt;
   ErrorsLine line{*errors, MatrixXd(errors->size(), values.size())};
-  for (Index k = 0; k < values.size(); ++k) {
+  for (const Index k : each_below(values.size())) {
     const VectorXd step = kStep * VectorXd::Unit(values.size(), k);
     const auto up = errors_at(values + step), down = errors_at(values - step);
     if (!up || !down) return std::nullopt;
@@ -290,8 +286,8 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(
   return settings_for(truth);
 }
 
-tl::expected<SettingsToType, SettingsFailure> settings_to_type(
-    const Machine& machine, const std::vector<model::BedPoint>& hull) {
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Machine& machine,
+                                                               const std::vector<BedPoint>& hull) {
   Truth truth;
   truth.machine = machine;
   truth.places = [&hull](const Machine& one) {

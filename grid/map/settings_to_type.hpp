@@ -23,8 +23,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "interp/eigen.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {
@@ -72,6 +72,6 @@ using SettingsFailure = Failure<SettingsReason>;
 /// Over a convex hull of places on the bed. The machine is taken as exact: neither error includes
 /// its uncertainty.
 [[nodiscard]] tl::expected<SettingsToType, SettingsFailure> settings_to_type(
-    const model::Machine& machine, const std::vector<model::BedPoint>& hull);
+    const Machine& machine, const std::vector<BedPoint>& hull);
 
 }  // namespace chaintrue::grid

@@ -3,17 +3,14 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "grid/plane_vectors.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
-using model::BedPoint;
-using model::Side;
 
 /// From x and y of the left anchor and the left chain's count, x of the right anchor and the right
 /// chain's count, and y of the right anchor unless both are level.
@@ -26,7 +23,7 @@ StraightSettings settings_of(const VectorXd& unknowns) {
 }
 
 /// The unknowns of straight chains for the stated machine.
-VectorXd start_of(const model::Machine& machine, Anchors anchors) {
+VectorXd start_of(const Machine& machine, Anchors anchors) {
   const auto& motors = machine.motors;
   VectorXd start(6);
   start << motors.left.x_mm, motors.left.y_mm, 1.0, motors.right.x_mm, 1.0, motors.right.y_mm;
@@ -36,10 +33,10 @@ VectorXd start_of(const model::Machine& machine, Anchors anchors) {
 }
 
 /// (1)
-PaidOut paid_out_by(const StraightSettings& settings, model::ChainLengths at_origin) {
-  return [=](BedPoint command) -> std::optional<model::ChainLengths> {
-    model::ChainLengths lengths = at_origin;
-    for (const Side side : model::kSides) {
+PaidOut paid_out_by(const StraightSettings& settings, ChainLengths at_origin) {
+  return [=](BedPoint command) -> std::optional<ChainLengths> {
+    ChainLengths lengths = at_origin;
+    for (const Side side : kSides) {
       const BedPoint anchor = settings.anchors[side];
       lengths[side] += settings.more_steps[side] *
                        (distance_mm(command, anchor) - distance_mm(BedPoint{}, anchor));
@@ -67,7 +64,7 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
                                                                   Anchors anchors) {
   if (map.machine() == nullptr) return tl::unexpected(StraightReason::no_machine);
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
-  const auto origin = map.lengths(model::MarkPoint{0.0, 0.0});
+  const auto origin = map.lengths(MarkPoint{0.0, 0.0});
   if (!origin || places.empty()) return tl::unexpected(StraightReason::no_origin);
   const ErrorsAt errors_at = [&](const VectorXd& unknowns) {
     return controller_errors(paid_out_by(settings_of(unknowns), origin->lengths), places);
@@ -86,7 +83,7 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
   }
   if (!converged) return tl::unexpected(StraightReason::not_converged);
   StraightSettings result = settings_of(unknowns);
-  for (const Side side : model::kSides)
+  for (const Side side : kSides)
     result.longer_mm[side] = distance_mm(BedPoint{}, result.anchors[side]) - origin->lengths[side];
   result.left_over = summary_of_errors(places, *errors_at(unknowns));
   return result;

@@ -29,11 +29,11 @@ enum class Anchors { free, level };
 
 struct StraightSettings {
   /// In the coordinates of the sheet, y up.
-  model::PerSide<model::BedPoint> anchors;
+  PerSide<BedPoint> anchors;
   /// c of (1): factor from the steps per millimetre of a correctly counted chain to those to set.
-  model::PerSide<double> more_steps;
+  PerSide<double> more_steps;
   /// The straight distance from 0, 0 minus the map's length there, mm.
-  model::ChainLengths longer_mm;
+  ChainLengths longer_mm;
   /// For the tool, over the measured part.
   ErrorSummary left_over;
 };

@@ -11,11 +11,11 @@
 
 namespace chaintrue::grid {
 
-MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                             const std::vector<model::MarkPoint>& to, double reach_mm) {
+MatrixXd displacement_kernel(const std::vector<MarkPoint>& from, const std::vector<MarkPoint>& to,
+                             double reach_mm) {
   MatrixXd kernel(std::ssize(from), std::ssize(to));
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    for (std::size_t j = 0; j < to.size(); ++j) {
+  for (const auto i : each_index(from)) {
+    for (const auto j : each_index(to)) {
       const double u = std::sqrt(5.0) * distance_mm(from[i], to[j]) / reach_mm;
       kernel(as_index(i), as_index(j)) = (1.0 + u + u * u / 3.0) * std::exp(-u);
     }
@@ -36,15 +36,15 @@ ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(p
   kernel.diagonal().array() += kSamePlace;
   inverse_ = linear::Cholesky(std::move(kernel)).inverse();
   Eigen::MatrixX2d at(count, 2);
-  for (Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
+  for (const Index i : each_below(count)) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
   weights_mm_ = inverse_ * at;
 }
 
-Vector2d ToolDisplacement::at(model::MarkPoint mark) const {
+Vector2d ToolDisplacement::at(MarkPoint mark) const {
   return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
 }
 
-double ToolDisplacement::own_variance_mm2(model::MarkPoint mark) const {
+double ToolDisplacement::own_variance_mm2(MarkPoint mark) const {
   const RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
   return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
 }

@@ -20,7 +20,7 @@
 
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/coordinates.hpp"
 
 namespace chaintrue::grid {
@@ -28,13 +28,13 @@ namespace chaintrue::grid {
 struct DisplacementParts {
   double size_mm = 0.0;   ///< one sigma beforehand, on each axis
   double reach_mm = 1.0;  ///< over which it changes
-  std::vector<model::MarkPoint> places;
+  std::vector<MarkPoint> places;
   VectorXd at_mm;  ///< x and y at each place, 2 N
 };
 
 /// (1) between all of two lists.
-MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
-                             const std::vector<model::MarkPoint>& to, double reach_mm);
+MatrixXd displacement_kernel(const std::vector<MarkPoint>& from, const std::vector<MarkPoint>& to,
+                             double reach_mm);
 
 /// Immutable, thread safe.
 class ToolDisplacement {
@@ -42,10 +42,10 @@ class ToolDisplacement {
   /// \throws std::invalid_argument if `at_mm` does not fit the places.
   explicit ToolDisplacement(DisplacementParts parts);
 
-  Vector2d at(model::MarkPoint mark) const;
+  Vector2d at(MarkPoint mark) const;
 
   /// For each axis, in addition to the uncertainty at the places.
-  double own_variance_mm2(model::MarkPoint mark) const;
+  double own_variance_mm2(MarkPoint mark) const;
 
   const DisplacementParts& parts() const { return parts_; }
 

@@ -60,14 +60,14 @@ void BeltLengthReadings::join_places() {
   const auto is_found = [this](std::size_t place) {
     return readings_[place].known || readings_[place].counted() >= 2;
   };
-  constexpr auto none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> number_of(readings_.size(), none);
+  constexpr auto none = as_size(-1);
+  Indices number_of(readings_.size(), none);
   for (std::size_t i = 0; i < readings_.size() && !distances_.empty(); ++i) {
     if (number_of.size() <= readings_[i].index) number_of.resize(readings_[i].index + 1, none);
     number_of[readings_[i].index] = i;
   }
   std::vector<std::optional<std::size_t>> block_place;  // of each distance; none: of no place
-  std::vector<bool> is_left_out;
+  Flags is_left_out;
   for (TapedDistance& distance : distances_) {
     std::optional<std::size_t> at;
     bool left_out = false;
@@ -87,8 +87,8 @@ void BeltLengthReadings::join_places() {
     is_left_out.push_back(left_out);
   }
   block_of_.assign(readings_.size(), none);
-  std::vector<std::size_t> block_of_root(readings_.size(), none);
-  for (std::size_t i = 0; i < readings_.size(); ++i) {
+  Indices block_of_root(readings_.size(), none);
+  for (const auto i : each_index(readings_)) {
     if (!is_found(i)) continue;
     std::size_t& block = block_of_root[root_of(i)];
     if (block == none) {
@@ -98,7 +98,7 @@ void BeltLengthReadings::join_places() {
     blocks_[block].places.push_back(i);
     block_of_[i] = block;
   }
-  for (std::size_t k = 0; k < distances_.size(); ++k) {
+  for (const auto k : each_index(distances_)) {
     if (is_left_out[k]) continue;
     if (block_place[k]) {
       blocks_[block_of_[*block_place[k]]].distances.push_back(k);
@@ -126,7 +126,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
     place_of_unit_.push_back(place);
     if (is_known) {
       const LengthsAtPlace& own = readings_[place];
-      for (Index i = 0; i < own.lengths_mm.size(); ++i) {
+      for (const Index i : each_below(own.lengths_mm.size())) {
         if (own.counts(i)) measured.push_back(own.lengths_mm[i]);
       }
     } else {

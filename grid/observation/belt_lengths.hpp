@@ -38,9 +38,9 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/observation/taped_ends.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -48,20 +48,20 @@ struct LengthsAtPlace {
   std::size_t index = 0;  ///< into the file's points
   std::string name;       ///< "3"
   VectorXd lengths_mm;
-  std::vector<bool> counting;  ///< of each length; empty: all
+  Flags counting;  ///< of each length; empty: all
   model::MechanismVisit visit;
   /// Where the tool was, in the mechanism's frame; empty: unknown.
-  std::optional<model::ToolPosition> known = std::nullopt;
+  std::optional<ToolPosition> known = std::nullopt;
   /// Counting lengths that are not used to find the position; empty: none.
-  std::vector<bool> rejected = {};
+  Flags rejected = {};
   /// For an unknown position: q to linearise about. The residuals are those there; to first order
   /// they do not depend on a nearby q. Empty: q of (1).
-  std::optional<model::ToolPosition> about = std::nullopt;
+  std::optional<ToolPosition> about = std::nullopt;
 
   bool counts(Index length) const { return counting.empty() || counting.at(as_size(length)); }
   Index counted() const {
     Index count = 0;
-    for (Index i = 0; i < lengths_mm.size(); ++i) count += counts(i) ? 1 : 0;
+    for (const Index i : each_below(lengths_mm.size())) count += counts(i) ? 1 : 0;
     return count;
   }
 };
@@ -74,7 +74,7 @@ struct BeltNoise {
 
 /// Lengths and distances whose positions are found together, about a view.
 struct BlockLine {
-  std::vector<model::ToolPosition> positions;
+  std::vector<ToolPosition> positions;
   VectorXd residual_mm;   ///< all lengths place by place, then the distances
   MatrixXd by_position;   ///< times 2 a place
   MatrixXd by_parameter;  ///< times p, or 0
@@ -92,8 +92,8 @@ class BeltLengthReadings final : public Observation {
   /// Places that are found together (indices into places()) and the distances that join them; a
   /// single place has no distances.
   struct Block {
-    std::vector<std::size_t> places;
-    std::vector<std::size_t> distances;
+    Indices places;
+    Indices distances;
   };
 
   const Kind& kind() const override { return belt_lengths; }
@@ -132,16 +132,16 @@ class BeltLengthReadings final : public Observation {
   void number_rows(const Block& block, std::vector<double>& measured);
   [[nodiscard]] tl::expected<void, Unreachable> find_positions(const View& view, const Block& block,
                                                                BlockLine& line) const;
-  [[nodiscard]] tl::expected<BlockLine, Unreachable> line_at(
-      const View& view, const Block& block, std::vector<model::ToolPosition> positions,
-      bool with_parameters) const;
+  [[nodiscard]] tl::expected<BlockLine, Unreachable> line_at(const View& view, const Block& block,
+                                                             std::vector<ToolPosition> positions,
+                                                             bool with_parameters) const;
 
   std::vector<LengthsAtPlace> readings_;
   std::vector<TapedDistance> distances_;
   std::vector<Block> blocks_;
-  std::vector<std::size_t> first_unit_;  ///< of each block
-  std::vector<std::size_t> block_of_;    ///< of each place; blocks_.size(): of none
-  std::vector<std::size_t> place_of_unit_;
+  Indices first_unit_;  ///< of each block
+  Indices block_of_;    ///< of each place; blocks_.size(): of none
+  Indices place_of_unit_;
   BeltNoise noise_;
 };
 

@@ -5,18 +5,19 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
+#include "grid/failed.hpp"
 #include "grid/observation/belt_lengths.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
 
 /// Lengths that the position is found from; empty: all.
-std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
+Flags deciding_lengths(const LengthsAtPlace& place) {
   if (place.rejected.empty()) return place.counting;
-  std::vector<bool> deciding;
-  for (Index i = 0; i < place.lengths_mm.size(); ++i)
+  Flags deciding;
+  for (const Index i : each_below(place.lengths_mm.size()))
     deciding.push_back(place.counts(i) && !place.rejected.at(as_size(i)));
   return deciding;
 }
@@ -24,7 +25,7 @@ std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
 }  // namespace
 
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
-    const View& view, const Block& block, std::vector<model::ToolPosition> positions,
+    const View& view, const Block& block, std::vector<ToolPosition> positions,
     bool with_parameters) const {
   const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
                                       : model::Derivatives::by_position;
@@ -34,7 +35,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
   const Index parameters = with_parameters ? view.mechanism->values().size() : 0;
   BlockLine line{std::move(positions), VectorXd(rows), MatrixXd::Zero(rows, 2 * places),
                  MatrixXd::Zero(rows, parameters), VectorXd(rows)};
-  for (Index p = 0; p < places; ++p) {
+  for (const Index p : each_below(places)) {
     const std::size_t place = block.places[as_size(p)];
     const LengthsAtPlace& own = readings_[place];
     const auto at = view.mechanism->predict(line.positions[as_size(p)], own.visit, wanted);
@@ -43,13 +44,14 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
     line.by_position.block(lengths * p, 2 * p, lengths, 2) = at->by_position;
     if (with_parameters) line.by_parameter.middleRows(lengths * p, lengths) = at->by_parameter;
-    for (Index i = 0; i < lengths; ++i) line.weight[lengths * p + i] = own.counts(i) ? 1.0 : 0.0;
+    for (const Index i : each_below(lengths))
+      line.weight[lengths * p + i] = own.counts(i) ? 1.0 : 0.0;
   }
   Index row = lengths * places;
   for (const std::size_t k : block.distances) {
     const TapedDistance& distance = distances_[k];
     std::array<std::optional<std::size_t>, 2> slots;  // of its ends, among the block's places
-    std::array<model::ToolPosition, 2> ends;
+    std::array<ToolPosition, 2> ends;
     for (std::size_t e = 0; e < 2; ++e) {
       const auto* place = std::get_if<AtPlace>(e == 0 ? &distance.from : &distance.to);
       if (place == nullptr) continue;
@@ -80,17 +82,16 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
   constexpr double kConvergedMm = 1e-9;
   for (int step = 0; step < kMostSteps; ++step) {
     const MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
-    const VectorXd move =
-        linear::PivotedCholesky(linear::product(linear::transposed(weighed), line.by_position))
-            .solve(linear::product(linear::transposed(weighed), line.residual_mm));
+    const VectorXd move = linear::PivotedCholesky(linear::inner(weighed, line.by_position))
+                              .solve(linear::inner(weighed, line.residual_mm));
     if (!move.allFinite()) break;
-    std::vector<model::ToolPosition> next = line.positions;
-    for (std::size_t p = 0; p < next.size(); ++p) {
+    std::vector<ToolPosition> next = line.positions;
+    for (const auto p : each_index(next)) {
       next[p].x_mm += move[2 * as_index(p)];
       next[p].y_mm += move[2 * as_index(p) + 1];
     }
     auto there = line_at(view, block, std::move(next), line.by_parameter.cols() > 0);
-    if (!there) return tl::unexpected(there.error());
+    if (!there) return failed(there);
     line = *std::move(there);
     if (move.norm() < kConvergedMm) return {};
   }
@@ -102,7 +103,7 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& view,
                                                                     const Block& block,
                                                                     bool with_parameters) const {
-  std::vector<model::ToolPosition> positions;
+  std::vector<ToolPosition> positions;
   for (const std::size_t place : block.places) {
     const LengthsAtPlace& own = readings_[place];
     if (own.known || own.about) {
@@ -110,7 +111,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
       continue;
     }
     // Starts where all lengths together put it, or at the middle if they do not meet.
-    const std::vector<bool> deciding = deciding_lengths(own);
+    const Flags deciding = deciding_lengths(own);
     auto position = view.mechanism->locate(own.lengths_mm, own.visit);
     if (!position || !deciding.empty()) {
       position = model::locate_by_newton(*view.mechanism, own.lengths_mm, own.visit,
@@ -122,7 +123,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
   }
   auto line = line_at(view, block, std::move(positions), with_parameters);
   if (!line || block.distances.empty() || block.places.empty()) return line;
-  if (auto found = find_positions(view, block, *line); !found) return tl::unexpected(found.error());
+  if (auto found = find_positions(view, block, *line); !found) return failed(found);
   return line;
 }
 
@@ -130,11 +131,11 @@ tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
     const View& view, const Columns& columns) const {
   const Index parameters = columns.parameters ? view.mechanism->values().size() : 0;
   Linearisation result = blank(parameters + (columns.sheet ? 3 : 0));
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+  for (const auto b : each_index(blocks_)) {
     const std::size_t end = b + 1 < blocks_.size() ? first_unit_[b + 1] : units_.size();
     if (first_unit_[b] == end) continue;
     auto own = rows_of(view, blocks_[b], columns.parameters);
-    if (!own) return tl::unexpected(own.error());
+    if (!own) return failed(own);
     const Index first = units_[first_unit_[b]].first_row;
     result.predicted.segment(first, own->predicted.size()) = own->predicted;
     result.by_setting.block(first, 0, own->predicted.size(), parameters) = own->by_parameter;
@@ -168,12 +169,12 @@ std::shared_ptr<const Observation> BeltLengthReadings::about_others(
 tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::rows_of(
     const View& view, const Block& block, bool with_parameters) const {
   const auto line = block_line(view, block, with_parameters);
-  if (!line) return tl::unexpected(line.error());
+  if (!line) return failed(line);
   const LengthsAtPlace* first = block.places.empty() ? nullptr : &readings_[block.places.front()];
   const bool is_known = first != nullptr && first->known;
   const bool is_alone = block.places.size() == 1 && block.distances.empty();
-  std::vector<Index> rows;
-  for (Index i = 0; i < line->weight.size(); ++i) {
+  Rows rows;
+  for (const Index i : each_below(line->weight.size())) {
     if (line->weight[i] > 0.0) rows.push_back(i);
   }
   const auto count = std::ssize(rows);
@@ -192,9 +193,8 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   const MatrixXd checks =  // Q
       first == nullptr ? MatrixXd(MatrixXd::Identity(count, count))
                        : MatrixXd(linear::qr(by_position).q.rightCols(left));
-  BlockRows result{-linear::product(linear::transposed(checks),
-                                    VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
-                   linear::product(linear::transposed(checks), by_parameter),
+  BlockRows result{-linear::inner(checks, VectorXd(root.cwiseProduct(line->residual_mm(rows)))),
+                   linear::inner(checks, by_parameter),
                    variance * MatrixXd::Identity(left, left),
                    {}};
   if (is_alone) {

@@ -39,17 +39,17 @@ ChainLengthReadings ChainLengthReadings::in_given_order(std::vector<Place> place
 tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {
   const model::MarkFrame frame(view.chains().machine());
   std::vector<model::Visit> visits;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    visits.push_back({view.sheet.to_bed(frame.place(places_[i].mark)),
-                      ordered_ ? places_[i].order : static_cast<int>(i)});
+  for (const auto i : each_index(places_)) {
+    visits.push_back(
+        {view.sheet.to_bed(frame.place(places_[i].mark)), ordered_ ? places_[i].order : as_int(i)});
   }
   const auto lengths = model::readings(view.chains(), visits);
   if (!lengths)
     return tl::unexpected(
         model::mechanism_failure(lengths.error().reason).at(lengths.error().place));
   VectorXd all(rows());
-  for (std::size_t i = 0; i < lengths->size(); ++i) {
-    model::ChainLengths own = (*lengths)[i];
+  for (const auto i : each_index(*lengths)) {
+    ChainLengths own = (*lengths)[i];
     if (view.correction != nullptr) {
       own = view.correction->at(places_[i].mark, own, Matrix2d::Zero()).lengths;
     }
@@ -61,16 +61,16 @@ tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& v
 
 tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const View& view, const Columns& columns) const {
-  const std::vector<model::Setting> settings = settings_in(columns);
+  const std::vector<Setting> settings = settings_in(columns);
   const model::MarkFrame frame(view.chains().machine());
   Linearisation line = blank(std::ssize(settings));
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const model::MarkPoint place = frame.place(places_[i].mark);
+  for (const auto i : each_index(places_)) {
+    const MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.chains().at(view.sheet.to_bed(place));
     if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
     ChainPlaceState state{*reading, places_[i].mark,
                           reading->position_jacobian * view.sheet.rotation()};
-    model::ChainLengths lengths = reading->lengths;
+    ChainLengths lengths = reading->lengths;
     if (view.correction != nullptr) {
       const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
       lengths = corrected.lengths;
@@ -99,7 +99,7 @@ std::string ChainLengthReadings::name_of(std::size_t unit) const {
 void ChainLengthReadings::take(std::vector<Place> places) {
   places_ = std::move(places);
   measured_.resize(2 * std::ssize(places_));
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  for (const auto i : each_index(places_)) {
     const auto row = 2 * as_index(i);
     measured_.segment<2>(row) = vector_of(places_[i].lengths);
     units_.push_back({row, 2, places_[i].index});

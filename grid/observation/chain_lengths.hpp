@@ -9,8 +9,8 @@
 ///   J    d(L, R)/d(mark)
 #pragma once
 
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {

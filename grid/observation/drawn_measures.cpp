@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 
@@ -42,10 +43,10 @@ DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points, std::vector<DrawnMe
   };
   auto order = numbers_below(measures.size());
   sort(order, ascending(key));
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  for (const auto i : each_index(points_))
     places_.push_back({i, points_[i].name, points_[i].commanded, points_[i].paid_out});
   measured_.resize(std::ssize(order));
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (const auto k : each_index(order)) {
     measures_.push_back(measures[order[k]]);
     measured_[as_index(k)] = measures_.back().value_mm;
     units_.push_back({as_index(k), 1, order[k]});
@@ -55,10 +56,10 @@ DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points, std::vector<DrawnMe
 tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& view,
                                                                   const Columns& columns) const {
   const auto at = located(view, columns.parameters);
-  if (!at) return tl::unexpected(at.error());
+  if (!at) return failed(at);
   const Index p = columns.parameters ? view.mechanism->values().size() : 0;
   Linearisation line = blank(p + (columns.sheet ? 3 : 0));
-  for (std::size_t k = 0; k < measures_.size(); ++k) {
+  for (const auto k : each_index(measures_)) {
     const auto row = as_index(k);
     const DrawnMeasure& m = measures_[k];
     const Located &from = (*at)[m.from], &to = (*at)[m.to], &middle = (*at)[m.middle];
@@ -74,9 +75,8 @@ tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& vi
   return line;
 }
 
-std::string DrawnMeasures::untestable(const model::effects::Effect& effect,
-                                      model::effects::EffectSide) const {
-  if (effect.needs != model::effects::DataNeed::order) return "";
+std::string DrawnMeasures::untestable(const Effect& effect, EffectSide) const {
+  if (effect.needs != DataNeed::order) return "";
   return fmt::format("a drawing does not show the order of its lines, which {} needs", effect.id);
 }
 
@@ -91,7 +91,7 @@ tl::expected<std::vector<DrawnMeasures::Located>, Unreachable> DrawnMeasures::lo
   const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
                                       : model::Derivatives::by_position;
   std::vector<Located> all;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (const auto i : each_index(points_)) {
     const auto tool = view.mechanism->locate_by_first(points_[i].paid_out);
     if (!tool) return tl::unexpected(tool.error().at(i));
     Located own{vector_of(*tool), Matrix2Xd::Zero(2, 0)};

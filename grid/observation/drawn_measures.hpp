@@ -23,16 +23,16 @@
 #include <string>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 
 /// A point that was drawn.
 struct DrawnPoint {
-  std::string name;            ///< "A"
-  model::MarkPoint commanded;  ///< in the controller's own frame
-  model::ChainLengths paid_out;
+  std::string name;     ///< "A"
+  MarkPoint commanded;  ///< in the controller's own frame
+  ChainLengths paid_out;
 };
 
 struct DrawnMeasure {
@@ -65,8 +65,7 @@ class DrawnMeasures final : public Observation {
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
 
-  std::string untestable(const model::effects::Effect& effect,
-                         model::effects::EffectSide) const override;
+  std::string untestable(const Effect& effect, EffectSide) const override;
 
   /// "the length A-B", "the bow of A-B".
   std::string name_of(std::size_t unit) const override;

@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "model/controllers/payout.hpp"
 
@@ -26,7 +24,7 @@ tl::expected<std::vector<LengthPoint>, std::string> length_points(const Measured
   std::unique_ptr<const model::ControllerKinematics> controller;
   if (commands && grid.machine) controller = model::make_controller_kinematics(*grid.machine);
   std::vector<LengthPoint> points;
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+  for (const auto i : each_index(grid.points)) {
     const MeasuredPoint& point = grid.points[i];
     LengthPoint result{i, point.mark, {}, std::nullopt};
     if (point.lengths) {
@@ -59,11 +57,11 @@ observation::ChainLengthReadings chain_length_readings(
                                                           noise_dof, prior);
 }
 
-std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points) {
-  std::vector<std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto near = [&](const std::vector<std::size_t>& group) {
-      const model::MarkPoint first = points[group.front()].mark;
+std::vector<Indices> repeat_groups(const std::vector<LengthPoint>& points) {
+  std::vector<Indices> groups;
+  for (const auto i : each_index(points)) {
+    const auto near = [&](const Indices& group) {
+      const MarkPoint first = points[group.front()].mark;
       return distance_mm(first, points[i].mark) <= kRepeatDistanceMm;
     };
     auto* group = find_where(groups, near);

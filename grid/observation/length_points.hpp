@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/measured_grid.hpp"
 
@@ -17,10 +18,10 @@ namespace chaintrue::grid {
 /// A point with its lengths, however they were given.
 struct LengthPoint {
   std::size_t index = 0;  ///< into the grid's points
-  model::MarkPoint mark;
-  model::ChainLengths lengths;
+  MarkPoint mark;
+  ChainLengths lengths;
   /// The command to the controller, if the lengths come from one.
-  std::optional<model::BedPoint> commanded = std::nullopt;
+  std::optional<BedPoint> commanded = std::nullopt;
 };
 
 /// Every point's lengths. A point that gives a command has the lengths that the machine's
@@ -38,13 +39,12 @@ observation::ChainLengthReadings chain_length_readings(
 inline constexpr double kRepeatDistanceMm = 25.0;
 
 /// Groups of two or more points at one place, as positions in `points`.
-std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points);
+std::vector<Indices> repeat_groups(const std::vector<LengthPoint>& points);
 
 /// Readings that replace a part of the stated machine: sled_mass_kg and chain_mass_kg_per_m replace
 /// it, ring_radius_mm is combined with the stated one by their sigmas, link_pitch_mm becomes a
 /// chain_pitch_error.
-[[nodiscard]] model::Machine with_readings(model::Machine machine,
-                                           const std::vector<ExtraReading>& readings);
+[[nodiscard]] Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings);
 
 /// The readings that the settings predict: motor_spacing_mm and beam_rise_mm.
 std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings);

@@ -43,8 +43,8 @@ bool same_readings(const MeasuredFile& one, const MeasuredFile& other) {
   return false;
 }
 
-std::string difference_of_settings(const model::Machine& first, const model::Machine& other) {
-  for (const model::Setting setting : model::kMachineSettings) {
+std::string difference_of_settings(const Machine& first, const Machine& other) {
+  for (const Setting setting : kMachineSettings) {
     if (model::stated_value(first, setting) == model::stated_value(other, setting)) continue;
     return fmt::format("{} is {} in this file and {} in the first", model::name(setting),
                        model::stated_value(other, setting), model::stated_value(first, setting));

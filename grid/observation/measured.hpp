@@ -28,7 +28,7 @@ struct MeasuredFile {
   const MeasuredGrid* grid() const { return std::get_if<MeasuredGrid>(&measured); }
   const MeasuredHoles* holes() const { return std::get_if<MeasuredHoles>(&measured); }
   /// The machine that the file states, if any.
-  const std::optional<model::Machine>& machine() const {
+  const std::optional<Machine>& machine() const {
     return std::visit(
         [](const auto& own) -> const auto& { return own.machine; }, measured);
   }
@@ -73,7 +73,7 @@ class Measured {
   }
 
   /// The machine that the first file states.
-  std::optional<model::Machine> machine() const {
+  std::optional<Machine> machine() const {
     return files_.empty() ? std::nullopt : files_.front().machine();
   }
 
@@ -96,6 +96,6 @@ bool same_readings(const MeasuredFile& one, const MeasuredFile& other);
 
 /// The first setting that differs between two machines, in terms of the second file; empty if all
 /// agree.
-std::string difference_of_settings(const model::Machine& first, const model::Machine& other);
+std::string difference_of_settings(const Machine& first, const Machine& other);
 
 }  // namespace chaintrue::grid

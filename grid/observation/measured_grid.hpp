@@ -14,10 +14,10 @@ namespace chaintrue::grid {
 
 struct MeasuredPoint {
   /// Where the tool stood, in the marks' frame (the bed's, unless the sheet was placed by hand).
-  model::MarkPoint mark;
+  MarkPoint mark;
   /// Absent if the point gives a command instead.
-  std::optional<model::ChainLengths> lengths;
-  std::optional<model::BedPoint> commanded;
+  std::optional<ChainLengths> lengths;
+  std::optional<BedPoint> commanded;
   /// Number of the visit; all points have it, distinct, or none.
   std::optional<int> order;
 };
@@ -58,7 +58,7 @@ struct ExtraReading {
 
 struct MeasuredGrid {
   std::string name;
-  std::optional<model::Machine> machine;
+  std::optional<Machine> machine;
   /// Absent: estimated from repeats, or from the fit's residuals, and reported.
   std::optional<StatedNoise> noise;
   std::optional<SheetUncertainty> sheet;

@@ -5,13 +5,14 @@
 
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 std::string_view name(SheetEdge edge) {
   constexpr std::string_view kNames[] = {"left", "right", "top", "bottom"};
-  return kNames[static_cast<std::size_t>(edge)];
+  return kNames[as_size(edge)];
 }
 
 std::optional<SheetEdge> edge_of(std::string_view word) {
@@ -36,7 +37,7 @@ std::string words_of(const MeasuredHoles& set, const HoleDistance& distance) {
 }
 
 EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge) {
-  const model::Bed bed = set.machine ? set.machine->bed : model::Bed{};
+  const Bed bed = set.machine ? set.machine->bed : Bed{};
   const double sign = edge == SheetEdge::left || edge == SheetEdge::bottom ? 1.0 : -1.0;
   if (edge == SheetEdge::left || edge == SheetEdge::right)
     return {set.sheet.width_mm.value_or(bed.width_mm), 0, sign};
@@ -44,7 +45,7 @@ EdgeLine edge_line(const MeasuredHoles& set, SheetEdge edge) {
 }
 
 double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance) {
-  const model::BedPoint from = set.holes.at(distance.from).commanded;
+  const BedPoint from = set.holes.at(distance.from).commanded;
   if (!distance.edge) return distance_mm(from, set.holes.at(distance.to).commanded);
   const EdgeLine line = edge_line(set, *distance.edge);
   return 0.5 * line.size_mm + line.sign * vector_of(from)[line.axis];
@@ -68,7 +69,7 @@ std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {
   // An error of scale grows with the distance; an offset is the same for all.
   const double scale = median(ratio);
   std::vector<double> residual_of_scale;
-  for (std::size_t i = 0; i < excess.size(); ++i) {
+  for (const auto i : each_index(excess)) {
     residual_of_scale.push_back(std::abs(excess[i] - scale * commanded[i]));
     excess[i] = std::abs(excess[i] - middle);
   }

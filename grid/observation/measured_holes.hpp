@@ -20,8 +20,8 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "interp/eigen.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid {
@@ -35,7 +35,7 @@ std::optional<SheetEdge> edge_of(std::string_view word);
 
 struct Hole {
   std::string name;
-  model::BedPoint commanded;
+  BedPoint commanded;
 };
 
 /// One reading of the tape, the tape's zero offset included: from a hole's centre to another's, or
@@ -79,7 +79,7 @@ struct SheetSize {
 
 struct MeasuredHoles {
   std::string name;
-  std::optional<model::Machine> machine;
+  std::optional<Machine> machine;
   Tape tape;
   /// One sigma on each axis of a hole's displacement from where its chain lengths put it: friction of
   /// the sled, drift of the drill.

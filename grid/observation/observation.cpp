@@ -10,10 +10,9 @@ Columns columns_of(const Observation& observation) {
   return {true, observation.sheet().has_value()};
 }
 
-std::vector<model::Setting> settings_in(const Columns& columns) {
-  std::vector<model::Setting> settings;
-  if (columns.parameters)
-    settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+std::vector<Setting> settings_in(const Columns& columns) {
+  std::vector<Setting> settings;
+  if (columns.parameters) settings.assign(kMachineSettings.begin(), kMachineSettings.end());
   if (columns.sheet)
     settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
   return settings;
@@ -40,12 +39,12 @@ MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance
   return covariance;
 }
 
-Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
-                             model::MarkPoint place, const std::vector<model::Setting>& settings) {
+Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading, MarkPoint place,
+                             const std::vector<Setting>& settings) {
   const Eigen::Matrix<double, 2, 3> by_sheet =
       reading.position_jacobian * view.sheet.sensitivity(place);
   Matrix2Xd columns(2, std::ssize(settings));
-  for (std::size_t s = 0; s < settings.size(); ++s) {
+  for (const auto s : each_index(settings)) {
     const auto column = as_index(s);
     if (model::is_of_sheet(settings[s])) {
       columns.col(column) = by_sheet.col(model::sheet_column(settings[s]));

@@ -35,7 +35,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/effects/effect.hpp"
@@ -55,13 +55,13 @@ struct Kind {
 
 /// Where the tool stood.
 struct Place {
-  std::size_t index = 0;        ///< into the file's points, or holes
-  std::string name;             ///< "3", "A"
-  model::MarkPoint mark;        ///< as written, or as commanded
-  model::ChainLengths lengths;  ///< read there, or paid out to get there
-  int order = 0;                ///< of the visit
+  std::size_t index = 0;  ///< into the file's points, or holes
+  std::string name;       ///< "3", "A"
+  MarkPoint mark;         ///< as written, or as commanded
+  ChainLengths lengths;   ///< read there, or paid out to get there
+  int order = 0;          ///< of the visit
   /// The command to the controller, if the lengths come from a command at this mark.
-  std::optional<model::BedPoint> commanded = std::nullopt;
+  std::optional<BedPoint> commanded = std::nullopt;
 };
 
 /// Rows that are good or bad together.
@@ -82,10 +82,10 @@ struct SheetPrior {
   /// For x, y and the rotation.
   Vector3d sigma() const { return {shift_sigma_mm, shift_sigma_mm, rotation_sigma_rad}; }
   /// True for a setting that is not the sheet's.
-  bool knows(model::Setting setting) const {
-    if (setting == model::Setting::sheet_x_mm) return knows_x;
-    if (setting == model::Setting::sheet_y_mm) return knows_y;
-    return setting != model::Setting::sheet_rotation_rad || knows_rotation;
+  bool knows(Setting setting) const {
+    if (setting == Setting::sheet_x_mm) return knows_x;
+    if (setting == Setting::sheet_y_mm) return knows_y;
+    return setting != Setting::sheet_rotation_rad || knows_rotation;
   }
 };
 
@@ -94,34 +94,32 @@ class LengthCorrection {
  public:
   virtual ~LengthCorrection() = default;
   struct At {
-    model::ChainLengths lengths;  ///< corrected
-    Matrix2d by_mark;             ///< d(corrected)/d(mark)
+    ChainLengths lengths;  ///< corrected
+    Matrix2d by_mark;      ///< d(corrected)/d(mark)
     /// d(corrected)/d(the machine's own), one for each chain.
     Vector2d by_length = Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
-  virtual At at(model::MarkPoint mark, model::ChainLengths lengths,
-                const Matrix2d& by_mark) const = 0;
+  virtual At at(MarkPoint mark, ChainLengths lengths, const Matrix2d& by_mark) const = 0;
 };
 
 /// The point of linearisation: a mechanism, the placement of the marks' sheet, and a correction of
 /// the mechanism's lengths.
 struct View {
-  explicit View(std::shared_ptr<const model::Mechanism> what_hangs)
-      : mechanism(std::move(what_hangs)) {}
-  View(std::shared_ptr<const model::Mechanism> what_hangs, model::SheetPlacement placement,
+  explicit View(std::shared_ptr<const Mechanism> what_hangs) : mechanism(std::move(what_hangs)) {}
+  View(std::shared_ptr<const Mechanism> what_hangs, SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr)
       : mechanism(std::move(what_hangs)), sheet(placement), correction(length_correction) {}
   /// For two chains.
-  View(model::ReadingModel chains, model::SheetPlacement placement,
+  View(ReadingModel chains, SheetPlacement placement,
        const LengthCorrection* length_correction = nullptr)
-      : View(std::make_shared<const model::ReadingModel>(std::move(chains)), placement,
+      : View(std::make_shared<const ReadingModel>(std::move(chains)), placement,
              length_correction) {}
 
   /// The two-chain model, for kinds that read only chains. \throws std::logic_error for another
   /// mechanism.
-  const model::ReadingModel& chains() const {
-    const auto* own = dynamic_cast<const model::ReadingModel*>(mechanism.get());
+  const ReadingModel& chains() const {
+    const auto* own = dynamic_cast<const ReadingModel*>(mechanism.get());
     if (own == nullptr) {
       throw std::logic_error("readings of two chains for a mechanism with " +
                              std::string(mechanism->kind()));
@@ -129,8 +127,8 @@ struct View {
     return *own;
   }
 
-  std::shared_ptr<const model::Mechanism> mechanism;
-  model::SheetPlacement sheet;
+  std::shared_ptr<const Mechanism> mechanism;
+  SheetPlacement sheet;
   const LengthCorrection* correction = nullptr;
 };
 
@@ -144,7 +142,7 @@ struct Columns {
 /// A place of two chains for a view.
 struct ChainPlaceState {
   model::PointReading reading;  ///< of the machine alone
-  model::MarkPoint mark;        ///< on the sheet; for a hole, where the machine puts it
+  MarkPoint mark;               ///< on the sheet; for a hole, where the machine puts it
   Matrix2d by_mark;             ///< d(L, R)/d(mark), corrected
   /// d(corrected)/d(the machine's own lengths), a chain each.
   Vector2d by_length = Vector2d::Ones();
@@ -229,9 +227,8 @@ class Observation {
 
   /// Why this kind cannot show the effect; empty if it can. By default it shows all but those that
   /// need an unknown order.
-  virtual std::string untestable(const model::effects::Effect& effect,
-                                 model::effects::EffectSide /*side*/) const {
-    const bool needs_order = effect.needs == model::effects::DataNeed::order;
+  virtual std::string untestable(const Effect& effect, EffectSide /*side*/) const {
+    const bool needs_order = effect.needs == DataNeed::order;
     return needs_order && !ordered_ ? "the order in which the points were visited is not known"
                                     : "";
   }
@@ -270,7 +267,7 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 /// The mechanism's parameters, and the sheet's where the observation has one.
 Columns columns_of(const Observation& observation);
 /// The same columns for two chains, by their settings' names.
-std::vector<model::Setting> settings_in(const Columns& columns);
+std::vector<Setting> settings_in(const Columns& columns);
 
 /// Every kind, in the order of kinds.def.
 const std::vector<const Kind*>& kinds();
@@ -284,7 +281,7 @@ MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance
 
 /// How settings of two chains move the lengths at a place, 2 x p; `place` is the requested place on
 /// the sheet, with the machine's effects of the paper removed.
-Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading,
-                             model::MarkPoint place, const std::vector<model::Setting>& settings);
+Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading, MarkPoint place,
+                             const std::vector<Setting>& settings);
 
 }  // namespace chaintrue::grid::observation

@@ -10,11 +10,9 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::Machine;
-
 /// Replaces those of the same name and side.
-void replace_effect(Machine& machine, const model::AppliedEffect& by) {
-  std::erase_if(machine.effects, [&](const model::AppliedEffect& applied) {
+void replace_effect(Machine& machine, const AppliedEffect& by) {
+  std::erase_if(machine.effects, [&](const AppliedEffect& applied) {
     return applied.effect == by.effect && applied.side == by.side;
   });
   machine.effects.push_back(by);
@@ -44,7 +42,7 @@ void take_tape_error(Machine& machine, const ExtraReading& reading) {
 /// The first parameter of an effect, summed over the machine's own that act on the side.
 double summed_size(const Machine& machine, std::string_view effect, const std::string& side) {
   double sum = 0.0;
-  for (const model::AppliedEffect& applied : machine.effects) {
+  for (const AppliedEffect& applied : machine.effects) {
     if (applied.effect != effect) continue;
     if (!side.empty() && applied.side != "both" && applied.side != side) continue;
     sum += applied.parameters.begin()->second;
@@ -92,7 +90,7 @@ const ReadingKind& reading_kind(ReadingOf what) {
          return 1000.0 * summed_size(m, "tape_scale", r.side);
        }},
   };
-  return kReadingKinds[static_cast<std::size_t>(what)];
+  return kReadingKinds[as_size(what)];
 }
 
 /// Readings of one quantity are combined, weighted by their sigmas, in the order of the first.

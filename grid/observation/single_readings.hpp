@@ -11,21 +11,21 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 
 /// A machine predicts it: motor_spacing_mm, beam_rise_mm, ring_radius_mm (on a ring), link_pitch_mm,
 /// chain_mass_kg_per_m, tape_error_mm_per_m.
-bool is_predictable(const model::Machine& machine, const ExtraReading& reading);
+bool is_predictable(const Machine& machine, const ExtraReading& reading);
 
 /// The machine's prediction, with its effects, of what one would measure.
 /// \throws std::out_of_range for a reading that no machine predicts.
-double predicted_reading(const model::Machine& machine, const ExtraReading& reading);
+double predicted_reading(const Machine& machine, const ExtraReading& reading);
 
 class SingleReadings final : public Observation {
  public:
@@ -37,7 +37,7 @@ class SingleReadings final : public Observation {
              std::tie(b.what, b.side, b.value, b.sigma);
     });
     measured_.resize(std::ssize(readings_));
-    for (std::size_t k = 0; k < readings_.size(); ++k) {
+    for (const auto k : each_index(readings_)) {
       if (!(readings_[k].sigma > 0.0)) {
         throw precondition("a reading of {} with sigma {}; it must be positive",
                            name(readings_[k].what), readings_[k].sigma);
@@ -50,16 +50,16 @@ class SingleReadings final : public Observation {
   const Kind& kind() const override { return single_readings; }
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override {
-    const std::vector<model::Setting> settings = settings_in(columns);
-    const model::Machine& machine = view.chains().machine();
+    const std::vector<Setting> settings = settings_in(columns);
+    const Machine& machine = view.chains().machine();
     Linearisation line = blank(std::ssize(settings));
-    for (std::size_t k = 0; k < readings_.size(); ++k)
+    for (const auto k : each_index(readings_))
       line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
-    for (std::size_t s = 0; s < settings.size(); ++s) {
+    for (const auto s : each_index(settings)) {
       if (model::is_of_sheet(settings[s])) continue;
-      const model::Machine moved = model::with_setting(
-          machine, settings[s], model::stated_value(machine, settings[s]) + 1.0);
-      for (std::size_t k = 0; k < readings_.size(); ++k) {
+      const Machine moved = model::with_setting(machine, settings[s],
+                                                model::stated_value(machine, settings[s]) + 1.0);
+      for (const auto k : each_index(readings_)) {
         line.by_setting(as_index(k), as_index(s)) =
             predicted_reading(moved, readings_[k]) - predicted_reading(machine, readings_[k]);
       }
@@ -70,8 +70,7 @@ class SingleReadings final : public Observation {
     return line;
   }
 
-  std::string untestable(const model::effects::Effect& effect,
-                         model::effects::EffectSide) const override {
+  std::string untestable(const Effect& effect, EffectSide) const override {
     return fmt::format("readings of the machine's parts alone do not show {}", effect.id);
   }
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
 #include "interp/linear_algebra.hpp"
@@ -21,13 +21,11 @@
 namespace chaintrue::grid::observation {
 namespace {
 
-using model::MarkPoint;
-
 /// A set in an order that the file's does not change.
 struct Sorted {
   MeasuredHoles set;
-  std::vector<std::size_t> hole;      ///< into the given set's
-  std::vector<std::size_t> distance;  ///< into the given set's
+  Indices hole;      ///< into the given set's
+  Indices distance;  ///< into the given set's
 };
 
 /// Holes by place and distances by their holes.
@@ -39,8 +37,8 @@ Sorted sorted_set(const MeasuredHoles& set) {
     return std::tie(x.commanded.x_mm, x.commanded.y_mm, x.name) <
            std::tie(y.commanded.x_mm, y.commanded.y_mm, y.name);
   });
-  std::vector<std::size_t> place(set.holes.size());
-  for (std::size_t i = 0; i < result.hole.size(); ++i) {
+  Indices place(set.holes.size());
+  for (const auto i : each_index(result.hole)) {
     place[result.hole[i]] = i;
     result.set.holes[i] = set.holes[result.hole[i]];
   }
@@ -51,7 +49,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
     return std::tuple(std::min(a, b), std::max(a, b), d.edge, d.distance_mm, sigma_of(set, d));
   };
   stable_sort(result.distance, ascending(key));
-  for (std::size_t k = 0; k < result.distance.size(); ++k) {
+  for (const auto k : each_index(result.distance)) {
     HoleDistance own = set.distances[result.distance[k]];
     own.from = place[own.from];
     if (!own.edge) own.to = place[own.to];
@@ -68,7 +66,7 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
   const auto count = std::ssize(set.distances);
   DistanceGeometry geometry{VectorXd::Zero(count), MatrixXd::Zero(count, 2 * std::ssize(marks)),
                             MatrixXd::Zero(count, 2)};
-  for (Index k = 0; k < count; ++k) {
+  for (const Index k : each_below(count)) {
     const HoleDistance& distance = set.distances[as_size(k)];
     const MarkPoint from = marks.at(distance.from);
     const auto a = 2 * as_index(distance.from);
@@ -95,7 +93,7 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   const Index count = geometry.predicted_mm.size();
   DistanceNoise noise;
   noise.tape_mm2.resize(count);
-  for (Index k = 0; k < count; ++k) {
+  for (const Index k : each_below(count)) {
     noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[as_size(k)]), 2);
   }
   noise.holes_mm2 = std::pow(set.hole_sigma_mm, 2) * linear::outer(geometry.by_mark);
@@ -115,17 +113,16 @@ void raise_to_rounding(MeasuredHoles& set) {
   }
 }
 
-bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
-  if (effect.station != model::effects::Station::paper || side != model::effects::EffectSide::both)
-    return false;
+bool is_of_tape(const Effect& effect, EffectSide side) {
+  if (effect.station != Station::paper || side != EffectSide::both) return false;
   // Declared effects may be more than a scale.
   const std::vector<double> values = model::effects::nominal_values(effect);
-  const model::MarkPoint x = effect.write({1.0, 0.0}, side, values);
-  const model::MarkPoint y = effect.write({0.0, 1.0}, side, values);
+  const MarkPoint x = effect.write({1.0, 0.0}, side, values);
+  const MarkPoint y = effect.write({0.0, 1.0}, side, values);
   return x.y_mm == 0.0 && y.x_mm == 0.0 && x.x_mm == y.y_mm;
 }
 
-double tape_factor(const model::Machine& machine) {
+double tape_factor(const Machine& machine) {
   double factor = 1.0;
   for (const model::effects::ActingEffect& acting : model::effects::acting_effects(machine)) {
     if (!is_of_tape(*acting.effect, acting.side)) continue;
@@ -158,7 +155,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
   raise_to_rounding(set);
   TapeDistances result(std::move(set));
   const auto controller = model::make_controller_kinematics(*result.set_.machine);
-  for (std::size_t i = 0; i < result.set_.holes.size(); ++i) {
+  for (const auto i : each_index(result.set_.holes)) {
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
@@ -167,11 +164,11 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
                       hole.commanded.x_mm, hole.commanded.y_mm, lengths.error().sentence()));
     }
     result.places_.push_back(
-        {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
+        {i, hole.name, model::identity_placement(hole.commanded), *lengths, as_int(i)});
   }
   const std::size_t count = result.set_.distances.size();
   result.measured_.resize(as_index(count));
-  for (std::size_t k = 0; k < count; ++k) {
+  for (const std::size_t k : each_below(count)) {
     const auto row = as_index(k);
     result.measured_[row] = length_of(result.set_, result.set_.distances[k]);
     result.units_.push_back({row, 1, k});
@@ -193,17 +190,17 @@ tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& 
 
 tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& view,
                                                                   const Columns& columns) const {
-  const std::vector<model::Setting> settings = settings_in(columns);
+  const std::vector<Setting> settings = settings_in(columns);
   auto states = placed(view);
-  if (!states) return tl::unexpected(states.error());
-  std::vector<model::MarkPoint> marks;
+  if (!states) return failed(states);
+  std::vector<MarkPoint> marks;
   for (const ChainPlaceState& state : *states) marks.push_back(state.mark);
   const double factor = tape_factor(view.chains().machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks);
   const MatrixXd by_mark = factor * geometry.by_mark;
   Linearisation line = blank(std::ssize(settings));
   line.predicted = factor * geometry.predicted_mm;
-  for (std::size_t i = 0; i < states->size(); ++i) {
+  for (const auto i : each_index(*states)) {
     const ChainPlaceState& place = (*states)[i];
     // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
     const Matrix2Xd lengths = place.by_length.asDiagonal() *
@@ -212,10 +209,10 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
     line.by_setting += by_mark.middleCols<2>(2 * as_index(i)) * marks_by_setting;
   }
   line.by_nuisance << factor * geometry.by_size, VectorXd::Ones(rows()), by_mark;
-  for (Index k = 0; k < rows(); ++k) {
+  for (const Index k : each_below(rows())) {
     const double sigma = sigma_of(set_, set_.distances[as_size(k)]);
     UnitState unit{MatrixXd::Constant(1, 1, sigma * sigma), {}};
-    for (std::size_t i = 0; i < states->size(); ++i) {
+    for (const auto i : each_index(*states)) {
       const RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
       if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
     }
@@ -225,12 +222,11 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   return line;
 }
 
-std::string TapeDistances::untestable(const model::effects::Effect& effect,
-                                      model::effects::EffectSide side) const {
-  if (effect.needs == model::effects::DataNeed::order) {
+std::string TapeDistances::untestable(const Effect& effect, EffectSide side) const {
+  if (effect.needs == DataNeed::order) {
     return "the order in which the holes were cut is not in the file, and no chain was read";
   }
-  if (effect.station == model::effects::Station::paper && !is_of_tape(effect, side)) {
+  if (effect.station == Station::paper && !is_of_tape(effect, side)) {
     return "a tape has one scale in every direction, and no axes: print or place marks and read "
            "the chains there";
   }
@@ -248,12 +244,12 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
   constexpr int kTurns = 6;
   constexpr double kConvergedMm = 1e-9;
   std::vector<ChainPlaceState> states;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const model::ChainLengths paid_out = places_[i].lengths;
-    model::BedPoint start = model::identity_placement(places_[i].mark);
-    model::ChainLengths own = paid_out;
+  for (const auto i : each_index(places_)) {
+    const ChainLengths paid_out = places_[i].lengths;
+    BedPoint start = model::identity_placement(places_[i].mark);
+    ChainLengths own = paid_out;
     // The machine's lengths that equal the paid-out ones after correction at a mark.
-    const auto correct = [&](model::MarkPoint mark) {
+    const auto correct = [&](MarkPoint mark) {
       const auto there = view.correction->at(mark, own, Matrix2d::Zero()).lengths;
       own = {paid_out.left_mm - (there.left_mm - own.left_mm),
              paid_out.right_mm - (there.right_mm - own.right_mm)};
@@ -262,7 +258,7 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
     auto reading = view.chains().find(own, start);
     for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
       start = reading->pose.position;
-      const model::ChainLengths before = own;
+      const ChainLengths before = own;
       correct(view.sheet.to_mark(start));
       if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
           kConvergedMm)

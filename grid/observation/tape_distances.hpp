@@ -28,9 +28,9 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "grid/observation/observation.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -40,8 +40,7 @@ struct DistanceGeometry {
   MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
   MatrixXd by_size;       ///< n x 2, by the sheet's excess width and height
 };
-DistanceGeometry distance_geometry(const MeasuredHoles& set,
-                                   const std::vector<model::MarkPoint>& marks);
+DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<MarkPoint>& marks);
 
 /// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
 /// of the zero offset.
@@ -54,9 +53,9 @@ struct DistanceNoise {
 DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry);
 
 /// The one effect of the paper that a tape can have: its scale.
-bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side);
+bool is_of_tape(const Effect& effect, EffectSide side);
 /// Read over true length, if the machine's effects include a tape error.
-double tape_factor(const model::Machine& machine);
+double tape_factor(const Machine& machine);
 
 /// Sigma of exactly stated values, mm: no workshop reading is more accurate.
 inline constexpr double kKnownNuisanceMm = 1e-6;
@@ -88,8 +87,7 @@ class TapeDistances final : public Observation {
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
       const View& view, const Columns& columns) const override;
 
-  std::string untestable(const model::effects::Effect& effect,
-                         model::effects::EffectSide side) const override;
+  std::string untestable(const Effect& effect, EffectSide side) const override;
 
   std::string name_of(std::size_t unit) const override;
 

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::observation {
@@ -12,8 +12,7 @@ namespace {
 
 using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
-MaybePlaced placed(const model::Mechanism& mechanism, const TapeEnd& end,
-                   const model::ToolPosition& place) {
+MaybePlaced placed(const Mechanism& mechanism, const TapeEnd& end, const ToolPosition& place) {
   const Index parameters = mechanism.values().size();
   if (const auto* hole = std::get_if<AtHole>(&end)) return placed_hole(mechanism, *hole);
   if (const auto* fixed = std::get_if<AtFixedPoint>(&end)) {
@@ -25,18 +24,18 @@ MaybePlaced placed(const model::Mechanism& mechanism, const TapeEnd& end,
 
 }  // namespace
 
-tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechanism& mechanism,
+tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const Mechanism& mechanism,
                                                              const AtHole& hole) {
   constexpr model::MechanismReason kNoHole{"no_hole",
                                            "the lengths that were paid out for a hole do not meet"};
   const auto at =
       model::locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
-  if (!at) return tl::unexpected(at.error());
+  if (!at) return failed(at);
   const auto there = mechanism.predict(*at, {});
-  if (!there) return tl::unexpected(there.error());
+  if (!there) return failed(there);
   // Lengths that do not meet have a nearest position, but no hole.
   constexpr double kTogetherMm = 1e-6;
-  for (std::size_t i = 0; i < hole.deciding.size(); ++i) {
+  for (const auto i : each_index(hole.deciding)) {
     const auto row = as_index(i);
     if (hole.deciding[i] &&
         !(std::abs(hole.lengths_mm[row] - there->lengths_mm[row]) < kTogetherMm))
@@ -54,12 +53,12 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const model::Mechan
 }
 
 tl::expected<DistanceLine, model::MechanismFailure> distance_line(
-    const model::Mechanism& mechanism, const TapedDistance& distance,
-    const std::array<model::ToolPosition, 2>& places) {
+    const Mechanism& mechanism, const TapedDistance& distance,
+    const std::array<ToolPosition, 2>& places) {
   const auto from = placed(mechanism, distance.from, places[0]);
-  if (!from) return tl::unexpected(from.error());
+  if (!from) return failed(from);
   const auto to = placed(mechanism, distance.to, places[1]);
-  if (!to) return tl::unexpected(to.error());
+  if (!to) return failed(to);
   const model::FrameScale scale = mechanism.frame_scale();
   const Vector2d way = to->at - from->at;
   const RowVector2d along = scale.factor * way.normalized().transpose();

@@ -22,7 +22,8 @@
 #include <tl/expected.hpp>
 #include <variant>
 
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
+#include "interp/eigen.hpp"
 #include "model/mechanism.hpp"
 
 namespace chaintrue::grid::observation {
@@ -36,9 +37,9 @@ struct AtFixedPoint {
   std::size_t index = 0;
 };
 struct AtHole {
-  VectorXd lengths_mm;         ///< paid out
-  std::vector<bool> deciding;  ///< two lengths that determine the tool's position
-  model::ToolPosition meant;   ///< the commanded position
+  VectorXd lengths_mm;  ///< paid out
+  Flags deciding;       ///< two lengths that determine the tool's position
+  ToolPosition meant;   ///< the commanded position
 };
 using TapeEnd = std::variant<AtPlace, AtFixedPoint, AtHole>;
 
@@ -62,11 +63,11 @@ struct PlacedEnd {
   Matrix2Xd by_parameter;
 };
 [[nodiscard]] tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(
-    const model::Mechanism& mechanism, const AtHole& hole);
+    const Mechanism& mechanism, const AtHole& hole);
 
 /// `places` are the positions of its ends; entries for ends that are not places are ignored.
 [[nodiscard]] tl::expected<DistanceLine, model::MechanismFailure> distance_line(
-    const model::Mechanism& mechanism, const TapedDistance& distance,
-    const std::array<model::ToolPosition, 2>& places);
+    const Mechanism& mechanism, const TapedDistance& distance,
+    const std::array<ToolPosition, 2>& places);
 
 }  // namespace chaintrue::grid::observation

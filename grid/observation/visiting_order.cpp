@@ -26,7 +26,7 @@ struct MarkInLine {
   double along_mm = 0.0;
 };
 
-MarkInLine in_line(const model::MarkPoint& mark, std::size_t index, const VisitingOrder& order) {
+MarkInLine in_line(const MarkPoint& mark, std::size_t index, const VisitingOrder& order) {
   const double x = order.from_right ? -mark.x_mm : mark.x_mm;
   const double y = order.from_below ? mark.y_mm : -mark.y_mm;
   return order.rows ? MarkInLine{index, y, x} : MarkInLine{index, x, y};
@@ -34,15 +34,15 @@ MarkInLine in_line(const model::MarkPoint& mark, std::size_t index, const Visiti
 
 struct Visits {
   std::vector<MarkInLine> first;
-  std::vector<std::size_t> again;
+  Indices again;
 };
 
 Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& order) {
   Visits visits;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const model::MarkPoint& mark = points[i].mark;
+  for (const auto i : each_index(points)) {
+    const MarkPoint& mark = points[i].mark;
     const bool again = any_of(visits.first, [&](const MarkInLine& place) {
-      const model::MarkPoint& other = points[place.index].mark;
+      const MarkPoint& other = points[place.index].mark;
       return distance_mm(other, mark) <= kRepeatDistanceMm;
     });
     if (again) {
@@ -109,7 +109,7 @@ tl::expected<std::vector<int>, std::string> visit_numbers(const std::vector<Meas
   }
   std::vector<int> numbers(points.size());
   int visit = 0;
-  for (std::size_t line = 0; line < lines.size(); ++line) {
+  for (const auto line : each_index(lines)) {
     stable_sort(lines[line], ascending(&MarkInLine::along_mm));
     if (order.serpentine && line % 2 == 1) std::reverse(lines[line].begin(), lines[line].end());
     for (const MarkInLine& mark : lines[line]) numbers[mark.index] = visit++;

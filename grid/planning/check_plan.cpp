@@ -9,20 +9,17 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/planning/distance_choice.hpp"
 #include "grid/precondition.hpp"
 #include "grid/raster.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/chains/chain_changes.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
-using model::MarkPoint;
-using model::Side;
 
 /// Positions where the map has an answer, row by row from the top left.
 std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
@@ -41,28 +38,28 @@ class Separation {
       : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
-  model::PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
-    std::vector<Index> rows;
+  PerSide<double> squared_sigmas(const Indices& points) const {
+    Rows rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * as_index(point));
       rows.push_back(rows.back() + 1);
     }
     const auto count = std::ssize(rows);
     MatrixXd k = covariance_(rows, rows);
-    for (Index i = 0; i < count; ++i) {
+    for (const Index i : each_below(count)) {
       for (Index j = i % 2; j < count; j += 2)
         k(i, j) += model::kZeroShiftSigmaMm * model::kZeroShiftSigmaMm;
     }
     MatrixXd grown = MatrixXd::Zero(count, 2);
-    for (Index i = 0; i < count; ++i)
+    for (const Index i : each_below(count))
       grown(i, i % 2) = model::kPitchGrowthSigma * readings_.lengths_mm[rows[as_size(i)]];
     const MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }
 
   /// Harmonic mean of both chains': near the smaller one, and increased by either.
-  double together(const std::vector<std::size_t>& points) const {
-    const model::PerSide<double> answer = squared_sigmas(points);
+  double together(const Indices& points) const {
+    const PerSide<double> answer = squared_sigmas(points);
     return 2.0 / (1.0 / answer.left + 1.0 / answer.right);
   }
 
@@ -72,8 +69,8 @@ class Separation {
 };
 
 /// Exchanges points as long as an exchange is an improvement, from evenly spaced ones.
-std::vector<std::size_t> choose(const Separation& separation, std::size_t places, int points) {
-  std::vector<std::size_t> chosen;
+Indices choose(const Separation& separation, std::size_t places, int points) {
+  Indices chosen;
   for (int i = 0; i < points; ++i) {
     chosen.push_back(as_size(i) * (places - 1) / as_size(points - 1));
   }
@@ -87,7 +84,7 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
   const bool sound = request.points >= kFewestCheckPoints && request.points <= kMostCheckPoints &&
                      request.length_mm > 0.0 && request.position_mm >= 0.0 &&
                      request.margin_mm >= 0.0;
-  const model::Machine* machine = map.machine();
+  const Machine* machine = map.machine();
   const bool fits =
       machine == nullptr ||
       2.0 * request.margin_mm < std::min(machine->bed.width_mm, machine->bed.height_mm);
@@ -122,18 +119,18 @@ PlanFailure no_machine() {
           "a direct map has no machine: its bed and the effect of a zero are unknown"};
 }
 
-model::PerSide<double> roots(const model::PerSide<double>& squares) {
+PerSide<double> roots(const PerSide<double>& squares) {
   return {std::sqrt(squares.left), std::sqrt(squares.right)};
 }
 
 }  // namespace
 
-tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
-    const CompensationMap& map, const std::vector<MarkPoint>& marks,
-    const CheckPlanRequest& request) {
+tl::expected<PerSide<double>, PlanFailure> expected_sigmas(const CompensationMap& map,
+                                                           const std::vector<MarkPoint>& marks,
+                                                           const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);
-  if (!readings) return tl::unexpected(readings.error());
+  if (!readings) return failed(readings);
   auto all = numbers_below(marks.size());
   return roots(Separation(*readings).squared_sigmas(all));
 }
@@ -148,9 +145,9 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
                   fmt::format("the map covers only {} of the places tried", places.size()));
   }
   const auto readings = readings_at(map, places, request);
-  if (!readings) return tl::unexpected(readings.error());
+  if (!readings) return failed(readings);
   const Separation separation(*readings);
-  const std::vector<std::size_t> chosen = choose(separation, places.size(), request.points);
+  const Indices chosen = choose(separation, places.size(), request.points);
   CheckPlan plan;
   for (const std::size_t k : chosen) plan.marks.push_back(places[k]);
   plan.expected_sigmas = roots(separation.squared_sigmas(chosen));

@@ -42,15 +42,15 @@ struct CheckPlanRequest {
 
 struct CheckPlan {
   /// In whole mm, row by row from the top left.
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   /// (1) of either chain.
-  model::PerSide<double> expected_sigmas;
+  PerSide<double> expected_sigmas;
 };
 
 /// (1) for given points; the request's number of points and margin are ignored. Fails with a
 /// message if the map has no answer at one of them.
-[[nodiscard]] tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
-    const CompensationMap& map, const std::vector<model::MarkPoint>& marks,
+[[nodiscard]] tl::expected<PerSide<double>, PlanFailure> expected_sigmas(
+    const CompensationMap& map, const std::vector<MarkPoint>& marks,
     const CheckPlanRequest& request);
 
 /// Fails with a message if the map has no machine, or answers at too few positions. \throws

@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/planning/holes_plan.hpp"
+#include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
@@ -38,7 +38,7 @@ inline constexpr Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
 /// A candidate position of a hole, and the derivative of the hole's position on the sheet by the
 /// unknowns.
 struct PlannedPlace {
-  model::MarkPoint place;
+  MarkPoint place;
   Eigen::Matrix<double, 2, kPlanUnknowns> by_unknown;
 };
 
@@ -59,7 +59,7 @@ double exchange(Exchange how, const std::vector<One>& others, std::vector<One>& 
   bool moved = true;
   for (how.step.pass = 1; how.step.pass <= how.sweeps && moved; ++how.step.pass) {
     moved = false;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
+    for (const auto i : each_index(chosen)) {
       how.step.share = as_double(i) / as_double(chosen.size());
       tell(how.progress, how.step);
       for (const One& other : others) {
@@ -84,7 +84,7 @@ class DistanceChooser {
   using Holes = std::vector<const PlannedPlace*>;
 
   /// `prior` is S before any measurement; `root` is L.
-  DistanceChooser(const model::Machine& machine, const HolesPlanRequest& request, MatrixXd prior,
+  DistanceChooser(const Machine& machine, const HolesPlanRequest& request, MatrixXd prior,
                   MatrixXd root)
       : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
     frame_.machine = machine;
@@ -99,14 +99,14 @@ class DistanceChooser {
 
   /// trace(C S) after the distances that are added one by one, each time the one that lowers it most.
   double variance_mm2(const Holes& holes) const {
-    std::vector<std::size_t> chosen;
+    Indices chosen;
     return add_best(measurable(holes, in_reach(holes)), chosen);
   }
 
   /// Those distances, single ones exchanged as long as an exchange is an improvement.
   Choice choose(const Holes& holes) const {
     const Measurable all = measurable(holes, in_reach(holes));
-    std::vector<std::size_t> chosen;
+    Indices chosen;
     Choice choice{{}, add_best(all, chosen)};
     choice.variance_mm2 =
         exchange({5, 1e-6, {"which distances are measured", 2, 2}, request_.progress},
@@ -136,12 +136,12 @@ class DistanceChooser {
   Measurable measurable(const Holes& holes, std::vector<HoleDistance> distances) const {
     MeasuredHoles set = frame_;
     set.distances = std::move(distances);
-    std::vector<model::MarkPoint> marks;
+    std::vector<MarkPoint> marks;
     for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks);
     const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
     MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
-    for (std::size_t i = 0; i < holes.size(); ++i) {
+    for (const auto i : each_index(holes)) {
       marks_by_unknown.middleRows<2>(2 * as_index(i)) = holes[i]->by_unknown;
     }
     Measurable all;
@@ -154,7 +154,7 @@ class DistanceChooser {
   }
 
   /// \param chosen their numbers
-  double add_best(Measurable all, std::vector<std::size_t>& chosen) const {
+  double add_best(Measurable all, Indices& chosen) const {
     // Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many
     // updates; the first one is kept.
     constexpr double kBetterChoice = 1.0 + 1e-6;
@@ -164,7 +164,7 @@ class DistanceChooser {
     while (chosen.size() < wanted) {
       Index best = -1;
       double best_gain = 0.0;
-      for (Index k = 0; k < std::ssize(all.distances); ++k) {
+      for (const Index k : each_below(std::ssize(all.distances))) {
         if (contains(chosen, as_size(k))) continue;
         const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
         if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
@@ -182,7 +182,7 @@ class DistanceChooser {
 
   std::vector<HoleDistance> in_reach(const Holes& holes) const {
     std::vector<HoleDistance> distances;
-    for (std::size_t a = 0; a < holes.size(); ++a) {
+    for (const auto a : each_index(holes)) {
       for (std::size_t b = a + 1; b < holes.size(); ++b) {
         const double way_mm = distance_mm(holes[a]->place, holes[b]->place);
         if (way_mm <= request_.longest_mm) distances.push_back({.from = a, .to = b});
@@ -191,11 +191,11 @@ class DistanceChooser {
     if (!request_.edges) return distances;
     // A tape is held square to an edge by eye, to a degree: 0.15 mm at this length.
     constexpr double kLongestToEdgeMm = 1000.0;
-    const model::Bed& bed = frame_.machine->bed;
+    const Bed& bed = frame_.machine->bed;
     const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
-    for (std::size_t a = 0; a < holes.size(); ++a) {
+    for (const auto a : each_index(holes)) {
       // The nearer of two edges: it is as informative.
-      const model::MarkPoint at = holes[a]->place;
+      const MarkPoint at = holes[a]->place;
       const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,
                                  at.y_mm < 0.0 ? SheetEdge::bottom : SheetEdge::top};
       const double way_mm[] = {0.5 * bed.width_mm - std::abs(at.x_mm),
@@ -208,7 +208,7 @@ class DistanceChooser {
   }
 
   /// trace(C S) after measuring those with these numbers.
-  double variance_mm2(const Measurable& all, const std::vector<std::size_t>& chosen) const {
+  double variance_mm2(const Measurable& all, const Indices& chosen) const {
     MatrixXd k = all.known(chosen, chosen);
     k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
     const MatrixXd pull = all.pull(Eigen::all, chosen);

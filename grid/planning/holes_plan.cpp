@@ -27,7 +27,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
 /// Derivatives by the unknowns of a plan, kPlanUnknowns columns.
@@ -40,24 +39,24 @@ struct ToolError {
 
 /// Derivative by the unknowns of the position on the sheet that is cut with the chain lengths of a
 /// given position; empty if the machine has no pose there.
-std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, MarkPoint place) {
+std::optional<PlannedPlace> planned_place(const ReadingModel& model, MarkPoint place) {
   const auto reading = model.at(model::identity_placement(place));
   if (!reading) return std::nullopt;
   Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
-  for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
-    lengths.col(as_index(i)) = model.sensitivity(*reading, model::kMachineSettings[i]);
+  for (const auto i : each_index(kMachineSettings)) {
+    lengths.col(as_index(i)) = model.sensitivity(*reading, kMachineSettings[i]);
   }
   lengths.rightCols<2>() = vector_of(reading->lengths).asDiagonal();
   PlannedPlace planned{place, {}};
   planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
-      -model::SheetPlacement{}.sensitivity(place);
+      -SheetPlacement{}.sensitivity(place);
   return planned;
 }
 
 /// If the sheet's placement does not matter, `root` is without the common part (best placement of
 /// the sheet).
-ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
-  const model::ReadingModel model(machine);
+ToolError tool_error(const Machine& machine, bool sheet_counts) {
+  const ReadingModel model(machine);
   std::vector<PlannedPlace> places;
   for (const MarkPoint& place : raster(area_of(machine.bed), 13, 7, RasterOf::cells)) {
     if (const auto planned = planned_place(model, place)) places.push_back(*planned);
@@ -68,10 +67,10 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
   }
   MatrixXd motion(2 * count, kPlanUnknowns);
   MatrixXd rigid(2 * count, 3);
-  for (Index i = 0; i < count; ++i) {
+  for (const Index i : each_below(count)) {
     const PlannedPlace& place = places[as_size(i)];
     motion.middleRows<2>(2 * i) = place.by_unknown;
-    rigid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(place.place);
+    rigid.middleRows<2>(2 * i) = SheetPlacement{}.sensitivity(place.place);
   }
   ToolError error;
   error.whole = linear::least_squares(rigid, motion);
@@ -84,14 +83,14 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
 /// ones.
 constexpr double kLeastApartMm = 150.0;
 /// The shorter side of the part of the bed where holes are planned.
-double shorter_side_mm(const model::Machine& machine, double margin_mm) {
+double shorter_side_mm(const Machine& machine, double margin_mm) {
   return std::min(machine.bed.width_mm, machine.bed.height_mm) - 2.0 * margin_mm;
 }
-double least_apart_mm(const model::Machine& machine, double margin_mm) {
+double least_apart_mm(const Machine& machine, double margin_mm) {
   return std::min(kLeastApartMm, 0.5 * shorter_side_mm(machine, margin_mm));
 }
-std::vector<PlannedPlace> candidates(const model::Machine& machine, double margin_mm) {
-  const model::ReadingModel model(machine);
+std::vector<PlannedPlace> candidates(const Machine& machine, double margin_mm) {
+  const ReadingModel model(machine);
   std::vector<PlannedPlace> result;
   for (const MarkPoint& place :
        whole_mm(raster(area_of(machine.bed, -margin_mm), 9, 5, RasterOf::nodes))) {
@@ -139,21 +138,21 @@ void move_holes(const DistanceChooser& chooser, const std::vector<PlannedPlace>&
 }
 
 /// Holes in the order of a walk, row by row from the top left, named A, B, C, ...
-MeasuredHoles set_of(const model::Machine& machine, const HolesPlanRequest& request,
-                     const Holes& holes, const std::vector<HoleDistance>& distances) {
+MeasuredHoles set_of(const Machine& machine, const HolesPlanRequest& request, const Holes& holes,
+                     const std::vector<HoleDistance>& distances) {
   auto order = numbers_below(holes.size());
   sort(order, [&](std::size_t a, std::size_t b) {
     const MarkPoint p = holes[a]->place;
     const MarkPoint q = holes[b]->place;
     return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
   });
-  std::vector<std::size_t> number(holes.size());
+  Indices number(holes.size());
   MeasuredHoles set;
   set.name = "plan";
   set.machine = machine;
   set.tape.sigma_mm = request.tape_sigma_mm;
   set.hole_sigma_mm = request.hole_sigma_mm;
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (const auto i : each_index(order)) {
     number[order[i]] = i;
     set.holes.push_back({std::string(1, static_cast<char>('A' + i)),
                          model::identity_placement(holes[order[i]]->place)});
@@ -173,7 +172,7 @@ MeasuredHoles set_of(const model::Machine& machine, const HolesPlanRequest& requ
   return set;
 }
 
-void check(const model::Machine& machine, const HolesPlanRequest& request) {
+void check(const Machine& machine, const HolesPlanRequest& request) {
   const bool sound =
       request.holes >= kFewestPlannedHoles && request.holes <= kMostPlannedHoles &&
       request.distances >= 0 &&
@@ -231,7 +230,7 @@ std::vector<PlannedKnowledge> knowledge_of(const MatrixXd& before, const MatrixX
 }
 
 /// The sheet's placement has no prior if it matters.
-MatrixXd prior_of(const model::Machine& machine, bool edges) {
+MatrixXd prior_of(const Machine& machine, bool edges) {
   MatrixXd prior = MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
   prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =
       estimation::stated_knowledge(machine).covariance;
@@ -247,9 +246,8 @@ struct Pattern {
   VectorXd white;  ///< change of the distances at the effect's nominal size
 };
 
-bool shows_in_distances(const model::effects::Effect& effect) {
-  return effect.station != model::effects::Station::paper &&
-         !model::effects::depends_on_visit(effect);
+bool shows_in_distances(const Effect& effect) {
+  return effect.station != Station::paper && !model::effects::depends_on_visit(effect);
 }
 
 /// Empty if the machine cannot cut the holes.
@@ -260,25 +258,25 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
   // Distances between holes do not depend on the sheet's placement; in those to its edges, a shift
   // of the whole must not be mistaken for an effect.
   const observation::Columns columns{.parameters = true, .sheet = true};
-  const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
+  const auto line = distances->linearise({ReadingModel(*set.machine), {}}, columns);
   if (!line) return {};
   VectorXd prior(line->by_setting.cols());
   prior << estimation::stated_knowledge(*set.machine)
                .covariance.diagonal()
-               .head(model::kMachineSettings.size()),
+               .head(kMachineSettings.size()),
       observation::kSheetByEdges.sigma().cwiseAbs2();
   const linear::Cholesky covariance(
       observation::marginal_covariance(*line, distances->nuisance_sigma()) +
       line->by_setting * prior.asDiagonal() * line->by_setting.transpose());
   std::vector<Pattern> patterns;
-  for (const model::effects::Effect* effect : model::effects::effects_of(*set.machine)) {
+  for (const Effect* effect : model::effects::effects_of(*set.machine)) {
     if (!shows_in_distances(*effect)) continue;
-    for (const model::effects::EffectSide side : effect->sides) {
-      model::Machine machine = *set.machine;
+    for (const EffectSide side : effect->sides) {
+      Machine machine = *set.machine;
       machine.effects.push_back(
           model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
       if (!model::effects::problems_of_effects(machine).empty()) continue;
-      const auto with = distances->predicted({model::ReadingModel(machine), {}});
+      const auto with = distances->predicted({ReadingModel(machine), {}});
       if (!with) continue;
       Pattern& own = patterns.emplace_back();
       own.white = covariance.half_solve(VectorXd(*with - line->predicted));
@@ -292,14 +290,12 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
 
 }  // namespace
 
-double tool_sigma_mm(const model::Machine& machine, const MatrixXd& covariance) {
+double tool_sigma_mm(const Machine& machine, const MatrixXd& covariance) {
   const MatrixXd root = tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
   return std::sqrt(std::max(0.0, linear::carried(root, covariance).trace()));
 }
 
-int fewest_distances(bool edges) {
-  return static_cast<int>(kFewestHoleDistances) + (edges ? 3 : 0);
-}
+int fewest_distances(bool edges) { return as_int(kFewestHoleDistances) + (edges ? 3 : 0); }
 
 int most_distances(int holes, bool edges) { return holes * (holes - 1) / 2 + (edges ? holes : 0); }
 
@@ -309,7 +305,7 @@ int distances_of(const HolesPlanRequest& request) {
                   request.distances > 0 ? request.distances : usual);
 }
 
-tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
+tl::expected<HolesPlan, PlanFailure> plan_holes(const Machine& machine,
                                                 const HolesPlanRequest& request) {
   check(machine, request);
   const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
@@ -341,8 +337,8 @@ std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
   std::vector<Pattern> patterns = patterns_of(set);
   stable_sort(patterns, descending([](const Pattern& one) { return one.found.sigmas; }));
   std::vector<DetectableEffect> found;
-  for (std::size_t i = 0; i < patterns.size(); ++i) {
-    for (std::size_t j = 0; j < patterns.size(); ++j) {
+  for (const auto i : each_index(patterns)) {
+    for (const auto j : each_index(patterns)) {
       if (i == j) continue;
       const double together = patterns[i].found.sigmas * patterns[j].found.sigmas;
       if (together > 0.0 &&

@@ -22,10 +22,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
-#include "grid/map/fitted_distances.hpp"
+#include "grid/map/fitted_points.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/progress.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -68,7 +68,7 @@ struct DetectableEffect {
   /// Norm of its change of the distances, in sigmas, after projection on settings and scales.
   double sigmas = 0.0;
   /// Effects whose pattern is the same to within 5 degrees, as indices.
-  std::vector<std::size_t> same_as;
+  Indices same_as;
 };
 
 struct HolesPlan {
@@ -84,12 +84,12 @@ struct HolesPlan {
 };
 
 /// \throws std::invalid_argument for numbers out of range.
-[[nodiscard]] tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
+[[nodiscard]] tl::expected<HolesPlan, PlanFailure> plan_holes(const Machine& machine,
                                                               const HolesPlanRequest& request);
 
 /// Root mean square over the bed of the tool's sigma for a covariance of the machine's unknowns,
 /// for the best placement of the sheet.
-double tool_sigma_mm(const model::Machine& machine, const MatrixXd& covariance);
+double tool_sigma_mm(const Machine& machine, const MatrixXd& covariance);
 
 // The catalogue's effects as observed by a set of distances: the size of each after projection on
 // the settings, and which of them are collinear. Secants at the nominal strength, whitened by K =

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
@@ -19,8 +20,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::MarkPoint;
-
 /// Errors of real machines after a good calibration (root mean square 0.2 to 0.5 mm on the optical
 /// scans of tests/accuracy/real_scans_test.cpp).
 constexpr double kDisturbanceMm = 0.5;
@@ -34,7 +33,7 @@ constexpr double kWorse = 1.0 + 1e-6;
 
 class Planner {
  public:
-  Planner(const model::Machine& machine, const PlanRequest& request)
+  Planner(const Machine& machine, const PlanRequest& request)
       : machine_(machine), model_(machine), request_(request) {}
 
   [[nodiscard]] tl::expected<CompensationMap, PlanFailure> map_of(
@@ -51,12 +50,11 @@ class Planner {
                                   "margin leaves such places out",
                                   mark.x_mm, mark.y_mm, reading.error().sentence()));
       }
-      const model::ChainLengths disturbance =
-          synthetic::unmodelled(model::identity_placement(mark));
+      const ChainLengths disturbance = synthetic::unmodelled(model::identity_placement(mark));
       grid.points.push_back(
           {mark,
-           model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,
-                               reading->lengths.right_mm + kDisturbanceMm * disturbance.right_mm},
+           ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,
+                        reading->lengths.right_mm + kDisturbanceMm * disturbance.right_mm},
            std::nullopt, std::nullopt});
     }
     auto map = fit(grid);
@@ -67,7 +65,7 @@ class Planner {
   /// The cell of the raster with the largest expected error where a mark is allowed.
   std::optional<MarkPoint> worst_free(const CompensationMap& map,
                                       const std::vector<MarkPoint>& marks) const {
-    const model::Bed& bed = machine_.bed;
+    const Bed& bed = machine_.bed;
     const interp::Rectangle allowed = area_of(bed, -request_.margin_mm);
     const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
     std::vector<MarkPoint> places =
@@ -79,7 +77,7 @@ class Planner {
     places = whole_mm(std::move(places));
     std::optional<MarkPoint> worst;
     double largest = 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
+    for (const auto i : each_index(errors)) {
       const MarkPoint& place = places[i];
       // A point nearer than this to another one adds little information.
       const bool taken = any_of(marks, [&](const MarkPoint& mark) {
@@ -93,8 +91,8 @@ class Planner {
   }
 
  private:
-  const model::Machine& machine_;
-  model::ReadingModel model_;
+  const Machine& machine_;
+  ReadingModel model_;
   const PlanRequest& request_;
 };
 
@@ -118,8 +116,8 @@ void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
 
 }  // namespace
 
-std::vector<double> expected_error_mm(const CompensationMap& map, const model::Bed& bed,
-                                      int columns, int rows) {
+std::vector<double> expected_error_mm(const CompensationMap& map, const Bed& bed, int columns,
+                                      int rows) {
   std::vector<double> errors;
   for (const MarkPoint& mark : raster(area_of(bed), columns, rows, RasterOf::cells)) {
     const auto answer = map.query(mark);
@@ -128,9 +126,9 @@ std::vector<double> expected_error_mm(const CompensationMap& map, const model::B
   return errors;
 }
 
-tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine& machine,
+tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const Machine& machine,
                                                             const PlanRequest& request) {
-  const model::Bed& bed = machine.bed;
+  const Bed& bed = machine.bed;
   const double width = bed.width_mm - 2.0 * request.margin_mm;
   const double height = bed.height_mm - 2.0 * request.margin_mm;
   if (request.points < kFewestPlanned || request.points > kMostPlanned ||
@@ -157,10 +155,28 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine
     marks.push_back(*next);
     map = planner.map_of(marks);
   }
-  if (!map) return tl::unexpected(map.error());
+  if (!map) return failed(map);
   walk(marks, y);
-  const int extra = static_cast<int>(marks.size()) - shape.columns * shape.rows;
+  const int extra = as_int(marks.size()) - shape.columns * shape.rows;
   return MeasurementPlan{std::move(marks), shape.columns, shape.rows, extra, *std::move(map)};
+}
+
+Indices with_second_visits(std::size_t marks, std::size_t second) {
+  if (3 * second > marks) {
+    throw std::invalid_argument(fmt::format(
+        "{} second visits of {} marks: three marks are needed for each", second, marks));
+  }
+  Indices visits;
+  std::size_t made = 0;  // second visits so far
+  for (const std::size_t mark : each_below(marks)) {
+    visits.push_back(mark);
+    // The last of them is the first mark's, after all others.
+    if (made + 1 >= second || (mark + 1) * second < (made + 1) * marks) continue;
+    visits.push_back(made * marks / second + 1);
+    ++made;
+  }
+  if (second > 0) visits.push_back(0);
+  return visits;
 }
 
 }  // namespace chaintrue::grid

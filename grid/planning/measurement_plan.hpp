@@ -17,6 +17,7 @@
 /// \endcode
 #pragma once
 
+#include <cstddef>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct PlanRequest {
 
 struct MeasurementPlan {
   /// In whole mm, in the order of visits: row by row from the bottom, in alternating directions.
-  std::vector<model::MarkPoint> marks;
+  std::vector<MarkPoint> marks;
   int columns = 0;
   int rows = 0;
   /// Points beyond columns * rows.
@@ -63,11 +64,30 @@ using PlanFailure = Failure<PlanReason>;
 /// \throws std::invalid_argument for a number of points out of range, or a margin that leaves no
 /// bed.
 [[nodiscard]] tl::expected<MeasurementPlan, PlanFailure> plan_measurement(
-    const model::Machine& machine, const PlanRequest& request);
+    const Machine& machine, const PlanRequest& request);
 
 /// One sigma of the tool over a raster of the whole bed, row by row from the bottom left, at the
 /// centres of columns x rows equal cells; negative where the map has no answer.
-std::vector<double> expected_error_mm(const CompensationMap& map, const model::Bed& bed,
-                                      int columns, int rows);
+std::vector<double> expected_error_mm(const CompensationMap& map, const Bed& bed, int columns,
+                                      int rows);
+
+// Marks that are visited twice, so that changes during the session show: a zero that moved, drift,
+// friction.
+//
+// The first mark comes again at the very end, so that whatever moved lies between its two visits.
+// The others are repeated after equal shares of the session, each a mark of the share before, so
+// that their spans divide the session and show when it moved.
+//
+// \code
+//   for (const std::size_t mark : with_second_visits(plan.marks.size(), 4)) drive_to(plan.marks[mark]);
+// \endcode
+
+/// Number of second visits in an owner's list.
+inline constexpr std::size_t kUsualSecondVisits = 4;
+
+/// Numbers of the marks in the order of the visits: each of `marks` once, in order, and `second` of
+/// them again. The two visits of a mark are never consecutive.
+/// \throws std::invalid_argument for fewer than three marks a second visit.
+[[nodiscard]] Indices with_second_visits(std::size_t marks, std::size_t second);
 
 }  // namespace chaintrue::grid

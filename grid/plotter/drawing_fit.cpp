@@ -42,7 +42,7 @@ std::string sentence_of(const TestDrawing& drawing, std::size_t cross, std::stri
 }
 
 tl::expected<estimation::Estimate, DrawingFailure> estimated(
-    const model::PlotterMachine& machine,
+    const PlotterMachine& machine,
     const std::shared_ptr<const observation::DrawnMeasures>& readings) {
   estimation::EstimationInput input;
   input.mechanism = model::make_plotter_mechanism(machine);
@@ -76,7 +76,7 @@ void raise_to_rounding(const TestDrawing& drawing, estimation::Estimate& estimat
 std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
   const auto parameters = estimate.mechanism->parameters();
   std::vector<PlotterSetting> settings;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
+  for (const auto k : each_index(parameters)) {
     const auto at = as_index(k);
     PlotterSetting own{parameters[k].name, *parameters[k].stated, estimate.mechanism->values()[at],
                        std::sqrt(std::max(estimate.covariance(at, at), 0.0))};
@@ -95,7 +95,7 @@ std::optional<VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFi
     pens.push_back(vector_of(*pen));
   }
   VectorXd values(std::ssize(drawing.measures));
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     const DrawnMeasure& m = drawing.measures[i];
     values[as_index(i)] =
         observation::measure_row(m.kind, pens[m.from], pens[m.to], pens[m.middle]).value_mm;
@@ -105,12 +105,12 @@ std::optional<VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFi
 
 }  // namespace
 
-model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMachine found) {
+PlotterMachine typed_in(model::PlotterFirmware firmware, PlotterMachine found) {
   using model::PlotterFirmware;
   if (firmware == PlotterFirmware::fluidnc) return found;
-  const auto shared = [](model::ChainLengths own) {
+  const auto shared = [](ChainLengths own) {
     const double mean = 0.5 * (own.left_mm + own.right_mm);
-    return model::ChainLengths{mean, mean};
+    return ChainLengths{mean, mean};
   };
   found.pin_rise_mm = 0.0;
   if (firmware == PlotterFirmware::marlin) return found;
@@ -121,9 +121,9 @@ model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMa
   return found;
 }
 
-tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
-    model::PlotterFirmware firmware, const model::PlotterMachine& set,
-    const model::PlotterMechanism& found, model::BedPoint command) {
+tl::expected<ToolPosition, model::MechanismFailure> pen_of_command(
+    model::PlotterFirmware firmware, const PlotterMachine& set,
+    const model::PlotterMechanism& found, BedPoint command) {
   const auto lengths = model::paid_out(firmware, set, command);
   if (!lengths) return tl::unexpected(model::mechanism_failure(lengths.error()));
   return found.locate_by_first(*lengths);
@@ -148,7 +148,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(DrawingReason::cross_out_of_reach,
                   sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
   }
-  const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<VectorXd> {
+  const DrawnValues drawn = [&](const Mechanism& machine) -> std::optional<VectorXd> {
     const auto values = readings->predicted(View(machine.with_values(machine.values())));
     if (!values) return std::nullopt;
     return in_file_order(*readings, *values);
@@ -156,11 +156,11 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   if (auto slip = slip_of_drawing(drawing, drawn, *model::make_plotter_mechanism(drawing.machine)))
     return tl::unexpected(std::move(*slip));
   auto estimate = estimated(drawing.machine, readings);
-  if (!estimate) return tl::unexpected(estimate.error());
+  if (!estimate) return failed(estimate);
   raise_to_rounding(drawing, *estimate);
 
   const VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);
-  std::vector<bool> rejected(drawing.measures.size(), false);
+  Flags rejected(drawing.measures.size(), false);
   for (const estimation::UnitEstimate& unit : estimate->units)
     rejected[readings->units()[unit.unit].index] = unit.is_rejected();
   if (auto slip = exchanged_rows(drawing, found, rejected)) return tl::unexpected(std::move(*slip));
@@ -188,7 +188,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     return failed(DrawingReason::not_converged,
                   "the page cannot be drawn with the fitted settings");
   }
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     const auto row = as_index(i);
     fit.measures.push_back({drawing.measures[i].value_mm, found[row], (*after)[row], rejected[i]});
   }

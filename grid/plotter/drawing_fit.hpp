@@ -22,8 +22,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/plotter/test_drawing.hpp"
+#include "interp/eigen.hpp"
 #include "model/failure.hpp"
 
 namespace chaintrue::grid {
@@ -55,7 +55,7 @@ struct DrawingFit {
   /// The noise found, as a multiple of the sigmas that went in.
   double noise_factor = 1.0;
   /// The ideal settings; typed_in() gives what the controller can store.
-  model::PlotterMachine to_set;
+  PlotterMachine to_set;
 };
 
 enum class DrawingReason {
@@ -79,11 +79,11 @@ inline constexpr std::size_t kFewestMeasures = 12;
 /// The part of a fitted machine that a controller can store. FluidNC stores all of it. Marlin
 /// assumes level pins; Polargraph also has one scale for both cords; a mural also has one zero, and
 /// whole millimetres between its pins.
-model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMachine found);
+PlotterMachine typed_in(model::PlotterFirmware firmware, PlotterMachine found);
 
 /// The pen's position on `found` for a command to a controller with `set`.
-[[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
-    model::PlotterFirmware firmware, const model::PlotterMachine& set,
-    const model::PlotterMechanism& found, model::BedPoint command);
+[[nodiscard]] tl::expected<ToolPosition, model::MechanismFailure> pen_of_command(
+    model::PlotterFirmware firmware, const PlotterMachine& set,
+    const model::PlotterMechanism& found, BedPoint command);
 
 }  // namespace chaintrue::grid

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/input_checks/transformation_search.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/statistics.hpp"
@@ -34,7 +32,7 @@ constexpr double kOfAFactor = 4.6;
 /// Measured over drawn by the machine as set, of all lengths.
 double median_share(const TestDrawing& drawing, const VectorXd& as_set) {
   std::vector<double> shares;
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     if (drawing.measures[i].kind == Kind::length)
       shares.push_back(drawing.measures[i].value_mm / as_set[as_index(i)]);
   }
@@ -91,12 +89,12 @@ DrawingReason reason_of(ProblemKind kind) {
 }
 
 /// The effect of one unit of each parameter.
-MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) {
+MatrixXd derivatives(const DrawnValues& drawn, const Mechanism& machine) {
   constexpr double kStep = 0.1;
   const VectorXd& values = machine.values();
   const auto at_stated = drawn(*machine.with_values(values));
   MatrixXd by_parameter = MatrixXd::Zero(at_stated->size(), values.size());
-  for (Index k = 0; k < values.size(); ++k) {
+  for (const Index k : each_below(values.size())) {
     VectorXd other = values;
     other[k] += kStep;
     if (const auto then = drawn(*machine.with_values(other)))
@@ -106,11 +104,11 @@ MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) 
 }
 
 std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
-  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+  for (const auto i : each_index(drawing.measures)) {
     const DrawnMeasure& own = drawing.measures[i];
     if (own.kind != Kind::bow) continue;
-    const model::BedPoint a = drawing.crosses.at(own.from).commanded;
-    const model::BedPoint b = drawing.crosses.at(own.to).commanded;
+    const BedPoint a = drawing.crosses.at(own.from).commanded;
+    const BedPoint b = drawing.crosses.at(own.to).commanded;
     const double length = distance_mm(b, a);
     if (std::abs(own.value_mm) <= kMostBowShare * length) continue;
     return DrawingFailure{
@@ -126,17 +124,17 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
 }  // namespace
 
 std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const DrawnValues& drawn,
-                                              const model::Mechanism& machine) {
+                                              const Mechanism& machine) {
   if (auto slip = bow_along_its_line(drawing)) return slip;
   const auto as_set = drawn(machine);
   if (!as_set) return std::nullopt;
   const MatrixXd basis = derivatives(drawn, machine);
   VectorXd sigma(basis.cols());
-  for (Index k = 0; k < sigma.size(); ++k)
+  for (const Index k : each_below(sigma.size()))
     sigma[k] = std::max(1e-3, machine.parameters()[as_size(k)].prior_sigma.value_or(1e3));
   const std::function<TrendRows(const TestDrawing&)> rows = [&](const TestDrawing& meant) {
     TrendRows own{basis, MatrixXd(basis.rows(), 1)};
-    for (std::size_t i = 0; i < meant.measures.size(); ++i) {
+    for (const auto i : each_index(meant.measures)) {
       const auto row = as_index(i);
       own.off_mm(row, 0) = meant.measures[i].value_mm - (*as_set)[row];
     }
@@ -157,10 +155,10 @@ std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const 
 }
 
 std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing, const VectorXd& found,
-                                             const std::vector<bool>& rejected) {
+                                             const Flags& rejected) {
   // Both then within what 4.5 sigmas of a reading and the estimate allow.
   constexpr double kFitsSigmas = 8.0;
-  for (std::size_t i = 0; i < rejected.size(); ++i) {
+  for (const auto i : each_index(rejected)) {
     for (std::size_t j = i + 1; j < rejected.size(); ++j) {
       if (!rejected[i] || !rejected[j]) continue;
       const DrawnMeasure &a = drawing.measures[i], &b = drawing.measures[j];

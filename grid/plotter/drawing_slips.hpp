@@ -7,24 +7,25 @@
 #include <functional>
 #include <optional>
 
-#include "grid/eigen.hpp"
+#include "grid/containers.hpp"
 #include "grid/plotter/drawing_fit.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
 /// The measures of a machine's drawing, in the drawing's order; empty if it cannot draw one.
-using DrawnValues = std::function<std::optional<VectorXd>(const model::Mechanism&)>;
+using DrawnValues = std::function<std::optional<VectorXd>(const Mechanism&)>;
 
 /// Slips of the measures as a whole, compared with what the stated `machine` would have drawn:
 /// another unit, bows of the opposite sign or a scaled page, for all measures or some; and a bow
 /// that was measured along its line.
 [[nodiscard]] std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
                                                             const DrawnValues& drawn,
-                                                            const model::Mechanism& machine);
+                                                            const Mechanism& machine);
 
 /// Two rejected measures that fit `found` once exchanged.
 [[nodiscard]] std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,
                                                            const VectorXd& found,
-                                                           const std::vector<bool>& rejected);
+                                                           const Flags& rejected);
 
 }  // namespace chaintrue::grid

@@ -3,17 +3,16 @@
 
 #include <cmath>
 
-namespace chaintrue::grid {
+#include "grid/containers.hpp"
 
-using model::PlotterMachine;
-using model::Side;
+namespace chaintrue::grid {
 
 namespace {
 
 /// Above the diagonal, row by row.
 std::vector<double> correlations_of(const MatrixXd& covariance) {
   std::vector<double> upper;
-  for (Index row = 0; row < covariance.rows(); ++row) {
+  for (const Index row : each_below(covariance.rows())) {
     for (Index column = row + 1; column < covariance.cols(); ++column) {
       const double both = std::sqrt(covariance(row, row) * covariance(column, column));
       upper.push_back(both > 0.0 ? covariance(row, column) / both : 0.0);
@@ -30,7 +29,7 @@ MatrixXd FoundPlotter::covariance() const {
       scale_left_mm_per_m.sigma, scale_right_mm_per_m.sigma;
   MatrixXd covariance = sigma.cwiseAbs2().asDiagonal();
   std::size_t next = 0;
-  for (Index row = 0; row < sigma.size(); ++row) {
+  for (const Index row : each_below(sigma.size())) {
     for (Index column = row + 1; column < sigma.size(); ++column, ++next)
       covariance(row, column) = covariance(column, row) =
           correlations.at(next) * sigma[row] * sigma[column];
@@ -40,7 +39,7 @@ MatrixXd FoundPlotter::covariance() const {
 
 FoundPlotter found_by(const DrawingFit& fit) {
   const auto at = [&](model::PlotterParameter parameter) {
-    const PlotterSetting& own = fit.settings.at(static_cast<std::size_t>(parameter));
+    const PlotterSetting& own = fit.settings.at(as_size(parameter));
     return FoundSetting{own.found, own.sigma};
   };
   return {at(model::kPinSpacing),         at(model::kPinRise),   at(model::kZeroLeft),
@@ -67,7 +66,7 @@ SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found) {
   SetPlotter next = set;
   next.machine.pin_spacing_mm = held.pin_spacing_mm;
   next.machine.pin_rise_mm = held.pin_rise_mm;
-  for (const Side side : model::kSides) next.steps_per_mm[side] *= more_steps(set, found, side);
+  for (const Side side : kSides) next.steps_per_mm[side] *= more_steps(set, found, side);
   if (set.firmware == model::PlotterFirmware::mural) {
     const double factor = more_steps(set, found, Side::left);
     const double too_much_mm = held.zero_mm.left_mm - set.machine.zero_mm.left_mm;
@@ -76,7 +75,7 @@ SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found) {
   } else if (set.home) {
     const auto mechanism = model::make_plotter_mechanism(found);
     const auto pen = pen_of_command(set.firmware, set.machine, *mechanism, *set.home);
-    if (pen) next.home = model::BedPoint{pen->x_mm, pen->y_mm};
+    if (pen) next.home = BedPoint{pen->x_mm, pen->y_mm};
   }
   return next;
 }

@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/plotter/drawing_fit.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 
@@ -45,14 +45,14 @@ struct KnownPlotter {
 FoundPlotter found_by(const DrawingFit& fit);
 
 /// The machine of `set` as it was found.
-model::PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found);
+PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found);
 
 /// The controller's settings after typing in settings_to_paste(set, found): it counts the cords
 /// correctly and knows the pen's position.
-SetPlotter once_typed_in(const SetPlotter& set, const model::PlotterMachine& found);
+SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found);
 
 /// Counted over true, relative to what the controller already allows for: the factor on the steps
 /// per millimetre.
-double more_steps(const SetPlotter& set, const model::PlotterMachine& found, model::Side side);
+double more_steps(const SetPlotter& set, const PlotterMachine& found, Side side);
 
 }  // namespace chaintrue::grid

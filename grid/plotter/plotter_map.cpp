@@ -3,18 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "grid/eigen.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
-using model::BedPoint;
-using model::MarkPoint;
 
 template <class Point>
 Point middle_of(const std::vector<Point>& points) {
@@ -28,10 +24,9 @@ Point middle_of(const std::vector<Point>& points) {
 }
 
 /// Where a plotter's pen is when these lengths are counted. \throws std::invalid_argument.
-std::vector<MarkPoint> pens_of(const model::Mechanism& plotter,
-                               const std::vector<model::ChainLengths>& counted) {
+std::vector<MarkPoint> pens_of(const Mechanism& plotter, const std::vector<ChainLengths>& counted) {
   std::vector<MarkPoint> pens;
-  for (const model::ChainLengths& lengths : counted) {
+  for (const ChainLengths& lengths : counted) {
     const auto pen = plotter.locate_by_first(lengths);
     if (!pen)
       throw std::invalid_argument(
@@ -49,7 +44,7 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   const auto found = model::make_plotter_mechanism(machine_found(set, *plotter.found));
   const BedPoint by = set.pins_middle;
   std::vector<BedPoint> crosses;  // as commanded, in the controller's coordinates
-  std::vector<model::ChainLengths> counted;
+  std::vector<ChainLengths> counted;
   for (const auto& [name, commanded] : planned_drawing(set).crosses) {
     crosses.push_back({commanded.x_mm + by.x_mm, commanded.y_mm + by.y_mm});
     const auto lengths = model::paid_out(set.firmware, set.machine, commanded);
@@ -62,7 +57,7 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   const MarkPoint drawn = middle_of(pens_of(*found, counted));
   const PlacedMechanism best{found, {{middle.x_mm - drawn.x_mm, middle.y_mm - drawn.y_mm}}};
   // The page of each plotter one sigma away is placed so that its crosses best match those of the fit.
-  std::vector<model::ChainLengths> of_fit;
+  std::vector<ChainLengths> of_fit;
   std::vector<BedPoint> on_page;
   std::vector<MarkPoint> measured;
   for (const BedPoint& cross : crosses) {

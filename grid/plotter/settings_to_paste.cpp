@@ -9,8 +9,6 @@ namespace chaintrue::grid {
 namespace {
 
 using model::PlotterFirmware;
-using model::PlotterMachine;
-using model::Side;
 
 /// Rounded to 0.01 mm, without a negative zero.
 std::string coordinate(double value_mm) {
@@ -34,7 +32,7 @@ void add_home(const SetPlotter& next, std::vector<std::string>& lines) {
 std::vector<std::string> fluidnc_lines(const SetPlotter& set, const PlotterMachine& found,
                                        const SetPlotter& next) {
   const double half = 0.5 * next.machine.pin_spacing_mm, up = 0.5 * next.machine.pin_rise_mm;
-  const model::BedPoint middle = set.pins_middle;
+  const BedPoint middle = set.pins_middle;
   return {"kinematics:",
           "  WallPlotter:",
           fmt::format("    left_anchor_x: {}", coordinate(middle.x_mm - half)),
@@ -50,7 +48,7 @@ std::vector<std::string> fluidnc_lines(const SetPlotter& set, const PlotterMachi
 
 std::vector<std::string> marlin_lines(const SetPlotter& set, const PlotterMachine& found,
                                       const SetPlotter& next) {
-  const model::BedPoint middle = set.pins_middle;
+  const BedPoint middle = set.pins_middle;
   return {fmt::format("M92 X{} Y{}", steps_text(set, found, Side::left),
                       steps_text(set, found, Side::right)),
           fmt::format(

@@ -24,7 +24,6 @@
 namespace chaintrue::grid {
 
 /// In the order in which they are typed in.
-std::vector<std::string> settings_to_paste(const SetPlotter& set,
-                                           const model::PlotterMachine& found);
+std::vector<std::string> settings_to_paste(const SetPlotter& set, const PlotterMachine& found);
 
 }  // namespace chaintrue::grid

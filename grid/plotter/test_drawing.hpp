@@ -30,7 +30,7 @@ namespace chaintrue::grid {
 /// A cross, in the machine's frame as it was commanded.
 struct DrawnCross {
   std::string name;
-  model::BedPoint commanded;
+  BedPoint commanded;
 };
 
 /// The homed step offset of a mural's firmware unless it was changed.
@@ -44,15 +44,15 @@ struct PenCommands {
 
 /// A V-plotter with its controller's settings.
 struct SetPlotter {
-  model::PlotterMachine machine;
+  PlotterMachine machine;
   model::PlotterFirmware firmware = model::PlotterFirmware::fluidnc;
   /// Steps per turn of a motor; 0: not stated.
-  model::PerSide<double> steps_per_mm{};
+  PerSide<double> steps_per_mm{};
   /// The controller's position of the pen when it is switched on, in the machine's frame; for all
   /// but a mural.
-  std::optional<model::BedPoint> home;
+  std::optional<BedPoint> home;
   /// The middle between the pins in the controller's own coordinates.
-  model::BedPoint pins_middle;
+  BedPoint pins_middle;
   double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
   PenCommands pen;
   double feed_mm_per_min = 1500.0;
@@ -75,7 +75,7 @@ inline constexpr double kRulerSigmaMm = 0.5;
 /// The crosses over the machine's drawing area, and 24 measures without values: 16 lengths and the
 /// bows of eight lines at their middles.
 TestDrawing planned_drawing(const SetPlotter& set);
-TestDrawing planned_drawing(const model::PlotterMachine& machine, model::PlotterFirmware firmware);
+TestDrawing planned_drawing(const PlotterMachine& machine, model::PlotterFirmware firmware);
 
 /// The drawing as readings: each cross with what the controller paid out for it. Fails if the
 /// controller cannot hold a cross, with its place among the crosses.
@@ -88,5 +88,24 @@ std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing);
 
 /// "the length A-B", "the bow of A-B at E".
 std::string words_of(const TestDrawing& drawing, std::size_t measure);
+
+// The page that a V-plotter draws for its test drawing, and the list of what to measure on it.
+//
+// \code
+//   const TestDrawing drawing = planned_drawing(machine, PlotterFirmware::fluidnc);
+//   write("page.gcode", drawing_gcode(drawing));
+//   write("sheet.txt", measuring_list(drawing));
+// \endcode
+
+/// In the controller's coordinates (TestDrawing::pins_middle), millimetres, absolute: a cross at each
+/// point, then every line with a bow to measure, from its first cross to its last.
+std::string drawing_gcode(const TestDrawing& drawing);
+
+/// For a mural, which is sent a picture: 1 unit is 1 mm, the origin is the left top corner of the
+/// drawing area.
+std::string drawing_svg(const TestDrawing& drawing);
+
+/// What to measure, a numbered line each with a place for the value, in the order of the measures.
+std::string measuring_list(const TestDrawing& drawing);
 
 }  // namespace chaintrue::grid

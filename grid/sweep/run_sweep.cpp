@@ -7,11 +7,11 @@
 #include <mutex>
 
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/parallel.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 #include "grid/statistics.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::sweep {
 namespace {
@@ -26,7 +26,6 @@ std::uint64_t cells_of(const Share& share, std::uint64_t cells) {
   return first < cells ? (cells - first - 1) / (share.count * share.ranks) + 1 : 0;
 }
 
-using model::BedPoint;
 using synthetic::SyntheticSpec;
 
 // Random streams of the sweep, distinct from the generator's.
@@ -68,8 +67,8 @@ SyntheticSpec session_spec(const SweepSpec& spec, const Levels& at, std::uint64_
 }
 
 // The machine on which the map is used.
-model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64_t repetition,
-                            SyntheticSpec session) {
+Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64_t repetition,
+                     SyntheticSpec session) {
   const UseLevel& use = spec.uses[at[2]];
   if (use.another_of_the_build) session.seed = seed_of(spec, kOtherMachineStream, repetition);
   append_all(session.hidden, use.effects);
@@ -77,18 +76,18 @@ model::Machine used_machine(const SweepSpec& spec, const Levels& at, std::uint64
 }
 
 CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const CompensationMap& map,
-                              const model::Machine& machine) {
+                              const Machine& machine) {
   const MachineLevel& level = spec.machines[at[0]];
-  const model::ReadingModel truth(machine, level.model);
+  const ReadingModel truth(machine, level.model);
   // The marked part of the bed, as in the designs.
   const auto span = [&spec](double bed_mm) {
     if (spec.whole_bed) return bed_mm;
     return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);
   };
-  const model::Bed marked{span(machine.bed.width_mm), span(machine.bed.height_mm)};
+  const Bed marked{span(machine.bed.width_mm), span(machine.bed.height_mm)};
   CellResult result;
   std::vector<Vector2d> chain_mm, tool_mm;
-  for (const model::MarkPoint& mark :
+  for (const MarkPoint& mark :
        raster(area_of(marked), spec.evaluation_columns, spec.evaluation_rows, RasterOf::nodes)) {
     const BedPoint p = model::identity_placement(mark);
     const auto answer = map.lengths(mark);
@@ -119,7 +118,7 @@ std::uint64_t run_sweep(const SweepSpec& spec, const CellStore& store, const Swe
   const KeepCell keep = store.open();
   std::mutex writing;
   std::uint64_t finished = 0;
-  for_each_index(static_cast<std::size_t>(total), [&](std::uint64_t k) {
+  for_each_index(as_size(total), [&](std::uint64_t k) {
     const std::uint64_t cell = cell_of(run.share, k);
     if (store.has(cell)) return;
     const CellResult result = run_cell(spec, cell);

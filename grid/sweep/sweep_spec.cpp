@@ -57,12 +57,12 @@ std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t le
 std::string_view name(SurfaceLevel level) {
   constexpr std::array<std::string_view, 4> kNames = {"residual", "direct", "direct_parabolic",
                                                       "direct_natural"};
-  return kNames[static_cast<std::size_t>(level)];
+  return kNames[as_size(level)];
 }
 
 std::string_view name(CellStatus status) {
   constexpr std::string_view kNames[] = {"done", "no_map", "not_reached", "no_answer"};
-  return kNames[static_cast<std::size_t>(status)];
+  return kNames[as_size(status)];
 }
 
 }  // namespace chaintrue::grid::sweep

@@ -35,8 +35,8 @@ enum class SurfaceLevel { residual, direct, direct_parabolic, direct_natural };
 /// A true machine and its stated values.
 struct MachineLevel {
   std::string name;
-  model::Machine truth;
-  model::Machine stated;
+  Machine truth;
+  Machine stated;
   model::Model model = model::Model::elastic;
   /// Amplitude of an unmodelled smooth disturbance.
   double unmodelled_mm = 0.0;
@@ -44,14 +44,14 @@ struct MachineLevel {
 
 struct EffectsLevel {
   std::string name;
-  std::vector<model::AppliedEffect> effects;
+  std::vector<AppliedEffect> effects;
 };
 
 /// The machine that the map is used on: the measured one with more effects (wear), or another one of
 /// the same build, with newly drawn settings.
 struct UseLevel {
   std::string name;
-  std::vector<model::AppliedEffect> effects;
+  std::vector<AppliedEffect> effects;
   bool another_of_the_build = false;
 };
 

@@ -2,7 +2,6 @@
 #include "grid/synthetic/atlas.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -10,21 +9,16 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/containers.hpp"
-#include "grid/eigen.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
+#include "interp/eigen.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::Mechanism;
 using model::MechanismExtent;
 using model::MechanismVisit;
-using model::ToolPosition;
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
 using MechanismPointer = std::shared_ptr<const Mechanism>;
 
 /// The machine as set in its controller, and the true one.
@@ -69,11 +63,11 @@ std::vector<AtlasLine> lattice_over(const MechanismExtent& extent) {
   const double bottom = extent.y_min_mm + kMargin * height;
   const double top = extent.y_max_mm - kMargin * height;
   std::vector<AtlasLine> lines;
-  for (int row = 0; row < kLatticeRows; ++row) {
+  for (const int row : each_below(kLatticeRows)) {
     const double y = bottom + row * (top - bottom) / (kLatticeRows - 1);
     lines.push_back({straight({left, y}, {right, y}, kPointsOfLine)});
   }
-  for (int column = 0; column < kLatticeColumns; ++column) {
+  for (const int column : each_below(kLatticeColumns)) {
     const double x = left + column * (right - left) / (kLatticeColumns - 1);
     lines.push_back({straight({x, bottom}, {x, top}, kPointsOfLine)});
   }
@@ -105,7 +99,7 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition c
       machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
   if (!paid_out) return std::nullopt;
   const VectorXd& lengths = paid_out->lengths_mm;
-  std::vector<bool> counting(as_size(lengths.size()), false);
+  Flags counting(as_size(lengths.size()), false);
   counting[0] = counting[1] = true;
   const auto place = lengths.size() == 2
                          ? machine.actual->locate(lengths, visit)
@@ -123,7 +117,7 @@ std::vector<double> directions(const SetAndActual& machine, ToolPosition from, T
       machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
   if (!before || !after) return {};
   std::vector<double> ways;
-  for (Index i = 0; i < after->lengths_mm.size(); ++i)
+  for (const Index i : each_below(after->lengths_mm.size()))
     ways.push_back(after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0);
   return ways;
 }
@@ -133,8 +127,8 @@ AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& mac
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::vector<ToolPosition>& points = lines[k].points;
     std::vector<std::optional<ToolPosition>> drawn;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      MechanismVisit visit{.order = machine.first_visit + static_cast<int>(k)};
+    for (const auto i : each_index(points)) {
+      MechanismVisit visit{.order = machine.first_visit + as_int(k)};
       // The first point is reached in the direction in which the line continues.
       const std::size_t to = std::max<std::size_t>(i, 1);
       visit.direction = directions(machine, points[to - 1], points[to]);
@@ -147,8 +141,8 @@ AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& mac
 
 double largest_shift(const std::vector<AtlasLine>& lines, const AtlasFrame& frame) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    for (std::size_t i = 0; i < lines[k].points.size(); ++i) {
+  for (const auto k : each_index(lines)) {
+    for (const auto i : each_index(lines[k].points)) {
       if (!frame.lines[k][i]) continue;
       const ToolPosition shift = minus(*frame.lines[k][i], lines[k].points[i]);
       largest = std::max(largest, std::hypot(shift.x_mm, shift.y_mm));
@@ -200,7 +194,7 @@ void add_picture(AtlasPicture picture, const std::vector<double>& sizes, double 
   atlas.pictures.push_back(std::move(picture));
 }
 
-model::AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, double size) {
+AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, double size) {
   std::vector<double> values = nominal_values(effect);
   values[at] = size;
   return model::effects::applied(effect, side, values);
@@ -208,7 +202,7 @@ model::AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t 
 
 std::size_t first_size(const Effect& effect) {
   std::size_t at = 0;
-  while (effect.parameters[at].role != model::effects::ParameterRole::size) ++at;
+  while (effect.parameters[at].role != ParameterRole::size) ++at;
   return at;
 }
 
@@ -216,7 +210,7 @@ void add_settings(const Mechanism& mechanism, std::string_view cause,
                   const std::function<std::optional<SetAndActual>(Index, double)>& with_size,
                   Atlas& atlas) {
   const auto parameters = mechanism.parameters();
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
+  for (const auto k : each_index(parameters)) {
     if (!cause.empty() && cause != parameters[k].name) continue;
     const double usual = parameters[k].prior_sigma.value_or(model::kParameterShiftSigma);
     const double most = 2.0 * usual;
@@ -228,7 +222,7 @@ void add_settings(const Mechanism& mechanism, std::string_view cause,
 
 void add_effects(
     const Mechanism& mechanism, std::string_view cause,
-    const std::function<std::optional<SetAndActual>(const model::AppliedEffect&)>& with_effect,
+    const std::function<std::optional<SetAndActual>(const AppliedEffect&)>& with_effect,
     Atlas& atlas) {
   for (const Effect* effect : mechanism.effects()) {
     if (!cause.empty() && cause != effect->id) continue;
@@ -254,8 +248,7 @@ MechanismPointer with_parameter(const Mechanism& mechanism, Index k, double more
 
 /// The anchors that fit a session with the effect best, with every reading at full weight, as the
 /// machine fits them.
-std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
-                                             const model::AppliedEffect& effect) {
+std::optional<BeltMachine> calibrated(const BeltMachine& machine, const AppliedEffect& effect) {
   BeltsSpec spec;
   spec.columns = spec.rows = 6;
   static_assert(kAtlasPlaces == 6 * 6);
@@ -269,8 +262,8 @@ std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
   return belts::with_anchors(machine, found->state.anchors);
 }
 
-ToolPosition origin_of(const model::BeltMachine& machine) {
-  const model::FramePoint centre = model::to_frame(machine, {0.0, 0.0});
+ToolPosition origin_of(const BeltMachine& machine) {
+  const FramePoint centre = model::to_frame(machine, {0.0, 0.0});
   return {centre.x_mm, centre.y_mm};
 }
 
@@ -288,14 +281,14 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
       atlas);
   add_effects(
       mechanism, cause,
-      [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
+      [&](const AppliedEffect& effect) -> std::optional<SetAndActual> {
         return SetAndActual{set, mechanism.with_effects({effect})};
       },
       atlas);
   return atlas;
 }
 
-Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
+Atlas atlas_of(const BeltMachine& machine, std::string_view cause) {
   if (!machine.anchors_known) throw std::invalid_argument("an atlas of anchors that are not known");
   const auto actual = model::make_belt_mechanism(machine);
   const ToolPosition origin = origin_of(machine);
@@ -315,7 +308,7 @@ Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
       atlas);
   add_effects(
       *actual, cause,
-      [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
+      [&](const AppliedEffect& effect) -> std::optional<SetAndActual> {
         const auto found = calibrated(machine, effect);
         if (!found) return std::nullopt;
         return SetAndActual{model::make_belt_mechanism(*found), actual->with_effects({effect}),

@@ -36,20 +36,20 @@ inline constexpr int kAtlasPlaces = 36;
 
 /// A polyline as commanded, in the mechanism's frame; of belts about the middle between the anchors.
 struct AtlasLine {
-  std::vector<model::ToolPosition> points;
+  std::vector<ToolPosition> points;
   bool is_of_square = false;
 };
 
 struct AtlasFrame {
   double size = 0.0;  ///< of the cause's first size, in its own unit; of a setting, true less set
   /// As AtlasLine::points; empty if the machine cannot hold the tool.
-  std::vector<std::vector<std::optional<model::ToolPosition>>> lines;
+  std::vector<std::vector<std::optional<ToolPosition>>> lines;
 };
 
 struct AtlasPicture {
   /// Null for a setting.
-  const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side = model::effects::EffectSide::none;
+  const Effect* effect = nullptr;
+  EffectSide side = EffectSide::none;
   std::string_view parameter;  ///< its size's name, or the setting
   double null = 0.0;           ///< the size without effect
   /// Sizes rise; the usual one is among them.
@@ -72,8 +72,8 @@ struct Atlas {
 
 /// For two chains or a V-plotter; only for one cause, by the name of its setting or effect, if
 /// `cause` is not empty.
-Atlas atlas_of(const model::Mechanism& mechanism, std::string_view cause = {});
+Atlas atlas_of(const Mechanism& mechanism, std::string_view cause = {});
 /// For four belts. \throws std::invalid_argument for anchors that are not known.
-Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause = {});
+Atlas atlas_of(const BeltMachine& machine, std::string_view cause = {});
 
 }  // namespace chaintrue::grid::synthetic

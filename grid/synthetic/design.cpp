@@ -13,8 +13,6 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::MarkPoint;
-
 constexpr double kRoundNumberMm = 100.0;
 constexpr int kBands = 5;
 
@@ -104,7 +102,7 @@ std::vector<MarkPoint> scattered(const Design& design, double half_x, double hal
 
 }  // namespace
 
-std::vector<Mark> marks(const model::Bed& bed, const Design& design, Random& random) {
+std::vector<Mark> marks(const Bed& bed, const Design& design, Random& random) {
   const double half_x = half_span(bed.width_mm, design.margin_mm);
   const double half_y = half_span(bed.height_mm, design.margin_mm);
   std::vector<Mark> result;

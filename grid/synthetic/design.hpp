@@ -34,12 +34,12 @@ struct Design {
   bool without_corners = false;
   Region region = Region::whole;
   /// The marks of DesignKind::given, in any order.
-  std::vector<model::MarkPoint> given;
+  std::vector<MarkPoint> given;
 };
 
 /// A mark and its place in the pattern; scattered marks are assigned to a few even bands.
 struct Mark {
-  model::MarkPoint place;
+  MarkPoint place;
   int column = 0;
   int row = 0;
 };
@@ -47,7 +47,7 @@ struct Mark {
 /// The marks, row by row from the bottom left. Empty if the region leaves none.
 /// \throws std::invalid_argument for fewer than 2 columns or rows, fewer than 1 random point, or a
 /// margin that leaves no bed.
-std::vector<Mark> marks(const model::Bed& bed, const Design& design, Random& random);
+std::vector<Mark> marks(const Bed& bed, const Design& design, Random& random);
 
 enum class VisitingOrder { rows, columns, serpentine_rows, serpentine_columns, random };
 

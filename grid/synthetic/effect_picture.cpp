@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/synthetic/effect_picture.hpp"
 
+#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::BedPoint;
-using model::Machine;
 using model::Visit;
 
 constexpr int kColumns = 7;
@@ -16,8 +15,7 @@ constexpr int kRows = 4;
 constexpr std::array<std::array<int, 2>, 3> kGrids = {{{7, 4}, {10, 6}, {20, 10}}};
 constexpr double kSquareMm = 100.0;
 
-ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& applied,
-                        BedPoint centre) {
+ShiftedSquare square_at(const Machine& machine, const AppliedEffect& applied, BedPoint centre) {
   ShiftedSquare square;
   square.centre = centre;
   constexpr double kHalfMm = 0.5 * kSquareMm;
@@ -25,15 +23,15 @@ ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& appl
   std::vector<Visit> visits;
   for (const auto& [x, y] : kCorners) {
     visits.push_back(
-        {{centre.x_mm + x * kHalfMm, centre.y_mm + y * kHalfMm}, static_cast<int>(visits.size())});
+        {{centre.x_mm + x * kHalfMm, centre.y_mm + y * kHalfMm}, as_int(visits.size())});
   }
   const std::vector<Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
   std::array<Vector2d, 4> cut;
-  for (std::size_t i = 0; i < cut.size(); ++i) {
+  for (const auto i : each_index(cut)) {
     square.corner_shift_mm[i] = shift[i];
     cut[i] = vector_of(visits[i].position) + shift[i];
   }
-  for (std::size_t i = 0; i < cut.size(); ++i)
+  for (const auto i : each_index(cut))
     square.side_mm[i] = (cut[(i + 1) % cut.size()] - cut[i]).norm();
   square.diagonal_mm = {(cut[2] - cut[0]).norm(), (cut[3] - cut[1]).norm()};
   return square;
@@ -41,11 +39,10 @@ ShiftedSquare square_at(const Machine& machine, const model::AppliedEffect& appl
 
 }  // namespace
 
-EffectPicture picture_effect(const Machine& machine, const model::effects::Effect& effect,
-                             model::effects::EffectSide side, const std::vector<double>& values,
-                             const StatedNoise& noise) {
+EffectPicture picture_effect(const Machine& machine, const Effect& effect, EffectSide side,
+                             const std::vector<double>& values, const StatedNoise& noise) {
   EffectPicture picture;
-  const model::AppliedEffect applied = model::effects::applied(effect, side, values);
+  const AppliedEffect applied = model::effects::applied(effect, side, values);
   picture.applied = applied;
   picture.noise = noise;
   picture.columns = kColumns;
@@ -54,7 +51,7 @@ EffectPicture picture_effect(const Machine& machine, const model::effects::Effec
   const StrengthTable table(machine, visits, noise);
   const std::vector<Vector2d> stated = signature(machine, {applied}, visits).tool_shift_mm();
   const std::vector<Vector2d> calibrated = table.calibrated_shift_mm(applied);
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     picture.marks.push_back(
         {model::identity_placement(visits[i].position), stated[i], calibrated[i]});
   }

@@ -7,14 +7,14 @@
 #include <array>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/synthetic/strength.hpp"
+#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::synthetic {
 
 /// A tool sent to a mark.
 struct ShiftedMark {
-  model::MarkPoint mark;
+  MarkPoint mark;
   /// Actual less commanded position of the tool, on the machine as stated ...
   Vector2d as_stated_mm;
   /// ... and after calibration of the settings on these marks.
@@ -23,7 +23,7 @@ struct ShiftedMark {
 
 /// A square cut where the stated machine cuts it; corners counter-clockwise from the lower left.
 struct ShiftedSquare {
-  model::BedPoint centre;
+  BedPoint centre;
   double size_mm = 100.0;
   std::array<Vector2d, 4> corner_shift_mm;
   /// Bottom, right, top, left, as cut.
@@ -40,7 +40,7 @@ struct StrengthAt {
 };
 
 struct EffectPicture {
-  model::AppliedEffect applied;
+  AppliedEffect applied;
   StatedNoise noise;
   int columns = 0;
   int rows = 0;
@@ -53,8 +53,7 @@ struct EffectPicture {
 /// `values` in the order of the effect's parameters.
 /// \throws std::invalid_argument if the effect cannot act on the machine or the machine cannot
 /// reach its own bed.
-EffectPicture picture_effect(const model::Machine& machine, const model::effects::Effect& effect,
-                             model::effects::EffectSide side, const std::vector<double>& values,
-                             const StatedNoise& noise);
+EffectPicture picture_effect(const Machine& machine, const Effect& effect, EffectSide side,
+                             const std::vector<double>& values, const StatedNoise& noise);
 
 }  // namespace chaintrue::grid::synthetic

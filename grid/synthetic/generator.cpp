@@ -5,18 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::BedPoint;
-using model::ChainLengths;
-using model::Machine;
-using model::MarkPoint;
-using model::Setting;
 using model::Visit;
 
 // The random streams. A new purpose gets a new number; existing numbers never change, so that a
@@ -69,9 +63,9 @@ MarkPoint jittered(MarkPoint place, double radius_mm, Random& random) {
 // of them again.
 std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, Random& random) {
   std::vector<MarkPoint> session;
-  std::vector<std::size_t> unrepeated;
+  Indices unrepeated;
   int done = 0;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (const auto i : each_index(marks)) {
     session.push_back(marks[i].place);
     unrepeated.push_back(i);
     while (done < repeats && (i + 1) * as_size(repeats) >= marks.size() * as_size(done + 1)) {
@@ -92,7 +86,7 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
   std::vector<SettingOffset> offsets = spec.offsets;
   if (spec.draw_settings) {
     Random random(spec.seed, kSettings);
-    for (const Setting setting : model::kMachineSettings) {
+    for (const Setting setting : kMachineSettings) {
       offsets.push_back({setting, model::stated_sigma(stated, setting) * random.normal()});
     }
   }
@@ -107,16 +101,16 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
 }
 
 // The points at which the machine's effects miscount links.
-std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Visit>& visits) {
-  std::vector<std::size_t> points;
-  for (const model::AppliedEffect& effect : machine.effects) {
-    const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
+Indices miscounted(const Machine& machine, const std::vector<Visit>& visits) {
+  Indices points;
+  for (const AppliedEffect& effect : machine.effects) {
+    const Effect* known = model::effects::find_effect(machine, effect.effect);
     if (known == nullptr || !known->at_one_visit) continue;
-    const auto value = [&](const model::effects::EffectParameter& parameter) {
+    const auto value = [&](const EffectParameter& parameter) {
       return effect.parameters.at(std::string(parameter.name));
     };
     if (value(known->parameters.front()) == known->parameters.front().null) continue;
-    for (std::size_t i = 0; i < visits.size(); ++i) {
+    for (const auto i : each_index(visits)) {
       if (visits[i].order == value(known->parameters.back())) points.push_back(i);
     }
   }
@@ -127,8 +121,7 @@ std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Vi
 // gross errors.
 std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
                                         const std::vector<ChainLengths>& lengths,
-                                        const SyntheticSpec& spec,
-                                        std::vector<std::size_t>& bad_points) {
+                                        const SyntheticSpec& spec, Indices& bad_points) {
   const SyntheticNoise& noise = spec.noise;
   Random length_noise(spec.seed, kLengthNoise);
   Random position_noise(spec.seed, kPositionNoise);
@@ -141,7 +134,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
   const double position_step = step_of(noise.position_rounding_mm, noise.position_mm);
   const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
   std::vector<MeasuredPoint> points;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (const auto i : each_index(marks)) {
     MarkPoint mark = marks[i];
     mark.x_mm += draw(position_noise, noise, noise.position_mm);
     mark.y_mm += draw(position_noise, noise, noise.position_mm);
@@ -155,7 +148,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
     points.push_back({{rounded(mark.x_mm, position_step), rounded(mark.y_mm, position_step)},
                       ChainLengths{rounded(left, length_step), rounded(right, length_step)},
                       std::nullopt,
-                      static_cast<int>(i)});
+                      as_int(i)});
   }
   return points;
 }
@@ -176,7 +169,7 @@ std::function<void(std::size_t)> counting(const Progress& progress, std::size_t 
 
 }  // namespace
 
-void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
+void offset_setting(Machine& machine, SheetPlacement& sheet, const SettingOffset& offset) {
   switch (offset.setting) {
     case Setting::sheet_x_mm:
       sheet.x_mm += offset.offset;
@@ -228,19 +221,19 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   std::vector<Visit> visits;
   for (const MarkPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
     const MarkPoint place = jittered(intended, spec.jitter_mm, jitter_random);
-    visits.push_back({answer.sheet.to_bed(place), static_cast<int>(visits.size())});
+    visits.push_back({answer.sheet.to_bed(place), as_int(visits.size())});
     answer.places.push_back(visits.back().position);
   }
 
-  const model::ReadingModel reading_model(answer.machine, spec.model);
+  const ReadingModel reading_model(answer.machine, spec.model);
   const auto lengths = model::readings(reading_model, visits, counting(progress, visits.size()));
   if (!lengths) {
     const BedPoint place = visits[lengths.error().place].position;
     return tl::unexpected(lengths.error().at(answer.sheet.to_mark(place)));
   }
   answer.lengths = *lengths;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    for (const model::Side side : model::kSides)
+  for (const auto i : each_index(visits)) {
+    for (const Side side : kSides)
       answer.lengths[i][side] += spec.unmodelled_mm * unmodelled(visits[i].position)[side];
   }
   const model::MarkFrame mark_frame(answer.machine);
@@ -258,16 +251,16 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   return session;
 }
 
-PlacesRead read_places(const Machine& stated, const std::vector<model::AppliedEffect>& hidden,
+PlacesRead read_places(const Machine& stated, const std::vector<AppliedEffect>& hidden,
                        const std::vector<Visit>& visits, model::Model model,
                        const Progress& progress) {
   PlacesRead result;
   Machine machine = stated;
   append_all(machine.effects, hidden);
-  const model::ReadingModel reading_model(machine, model);
+  const ReadingModel reading_model(machine, model);
   const model::MarkFrame mark_frame(machine);
   std::vector<Visit> reached;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     const auto reading = reading_model.at(visits[i].position);
     if (reading) {
       reached.push_back(visits[i]);
@@ -277,7 +270,7 @@ PlacesRead read_places(const Machine& stated, const std::vector<model::AppliedEf
   }
   const auto lengths = model::readings(reading_model, reached, counting(progress, reached.size()));
   result.grid.machine = stated;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
+  for (const auto i : each_index(reached)) {
     result.grid.points.push_back(
         {mark_frame.written(model::identity_placement(reached[i].position)), lengths->at(i),
          std::nullopt, reached[i].order});

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/progress.hpp"
 #include "grid/synthetic/design.hpp"
@@ -53,13 +54,12 @@ struct BadPoints {
 
 /// True setting less the stated one.
 struct SettingOffset {
-  model::Setting setting = model::Setting::motor_left_x_mm;
+  Setting setting = Setting::motor_left_x_mm;
   double offset = 0.0;
 };
 
 /// Applies an offset to the machine, or to the sheet if it is a setting of the sheet.
-void offset_setting(model::Machine& machine, model::SheetPlacement& sheet,
-                    const SettingOffset& offset);
+void offset_setting(Machine& machine, SheetPlacement& sheet, const SettingOffset& offset);
 
 struct SyntheticSpec {
   Design design;
@@ -72,7 +72,7 @@ struct SyntheticSpec {
   std::optional<StatedNoise> stated;
   BadPoints bad;
   /// In addition to the machine's own effects; not stated in the grid.
-  std::vector<model::AppliedEffect> hidden;
+  std::vector<AppliedEffect> hidden;
   std::vector<SettingOffset> offsets;
   /// Draws further offsets of motors and zeros from the machine's stated uncertainties.
   bool draw_settings = false;
@@ -88,30 +88,30 @@ struct SyntheticSpec {
 /// That disturbance for an amplitude of 1 mm: sin(x / 500 + 0.3) cos(y / 400) on the left chain,
 /// cos(x / 450) sin(y / 420 + 0.5) on the right one, x and y in mm: most of a period along the bed,
 /// half of one up it.
-model::ChainLengths unmodelled(model::BedPoint place);
+ChainLengths unmodelled(BedPoint place);
 
 /// The true machine: hidden effects appended, settings offset and drawn; and the sheet's true
 /// placement.
 struct SyntheticTruth {
-  model::Machine machine;
+  Machine machine;
   std::vector<SettingOffset> offsets;
-  model::SheetPlacement sheet;
+  SheetPlacement sheet;
 };
-SyntheticTruth truth_of(const model::Machine& stated, const SyntheticSpec& spec);
+SyntheticTruth truth_of(const Machine& stated, const SyntheticSpec& spec);
 
 /// The truth of a simulation.
 struct SyntheticAnswer {
   /// The true machine, with every effect.
-  model::Machine machine;
-  std::vector<model::AppliedEffect> hidden;
+  Machine machine;
+  std::vector<AppliedEffect> hidden;
   std::vector<SettingOffset> offsets;
-  model::SheetPlacement sheet;
+  SheetPlacement sheet;
   /// True position of the tool at each point of the grid, in the bed's frame.
-  std::vector<model::BedPoint> places;
+  std::vector<BedPoint> places;
   /// Readings at each point without noise and gross errors.
-  std::vector<model::ChainLengths> lengths;
+  std::vector<ChainLengths> lengths;
   /// Indices into the points: gross errors and miscounted links.
-  std::vector<std::size_t> bad_points;
+  Indices bad_points;
   std::uint64_t seed = 0;
 };
 
@@ -122,12 +122,12 @@ struct SyntheticSession {
 };
 
 /// A mark that the machine cannot reach.
-using UnreachableMark = Failure<model::PoseReason, model::MarkPoint>;
+using UnreachableMark = Failure<model::PoseReason, MarkPoint>;
 
 /// \throws std::invalid_argument for a machine or hidden effects with problems (check with
 /// problems_of and effects::problems_of_effects on true_machine()), and as marks().
 [[nodiscard]] tl::expected<SyntheticSession, UnreachableMark> generate(
-    const model::Machine& stated, const SyntheticSpec& spec, const Progress& progress = {});
+    const Machine& stated, const SyntheticSpec& spec, const Progress& progress = {});
 
 /// Readings at given true positions, visited in the order of their numbers, without noise and with
 /// all digits. The marks of the grid include the paper effects.
@@ -136,8 +136,7 @@ struct PlacesRead {
   /// Positions that cannot be reached; they are not in the grid and the session.
   std::vector<std::pair<std::size_t, model::PoseReason>> unreachable;
 };
-PlacesRead read_places(const model::Machine& stated,
-                       const std::vector<model::AppliedEffect>& hidden,
+PlacesRead read_places(const Machine& stated, const std::vector<AppliedEffect>& hidden,
                        const std::vector<model::Visit>& visits,
                        model::Model model = model::Model::elastic, const Progress& progress = {});
 

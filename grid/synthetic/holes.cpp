@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "grid/containers.hpp"
 #include "grid/failed.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/random.hpp"
@@ -23,11 +22,11 @@ constexpr std::uint64_t kBadStream = 14;
 
 }  // namespace
 
-model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec) {
+Machine hidden_truth(const Machine& stated, const HolesSpec& spec) {
   Random random(spec.seed, kSettingStream);
-  model::Machine truth = stated;
+  Machine truth = stated;
   if (spec.draw_settings) {
-    for (const model::Setting setting : model::kMachineSettings) {
+    for (const Setting setting : kMachineSettings) {
       truth = model::with_setting(std::move(truth), setting,
                                   model::stated_value(stated, setting) +
                                       model::stated_sigma(stated, setting) * random.normal());
@@ -43,18 +42,18 @@ model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec)
   return truth;
 }
 
-tl::expected<SyntheticHoles, CutFailure> simulate_holes(
-    const MeasuredHoles& design, const HolesSpec& spec,
-    const std::optional<model::Machine>& truth) {
+tl::expected<SyntheticHoles, CutFailure> simulate_holes(const MeasuredHoles& design,
+                                                        const HolesSpec& spec,
+                                                        const std::optional<Machine>& truth) {
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
   if (!distances) {
     return failed(CutReason::no_lengths, distances.error());
   }
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
-  const model::ReadingModel model(made.truth);
+  const ReadingModel model(made.truth);
   Random hole_noise(spec.seed, kHoleStream);
-  for (std::size_t i = 0; i < design.holes.size(); ++i) {
+  for (const auto i : each_index(design.holes)) {
     const auto reading = model.find(distances->places()[i].lengths, design.holes[i].commanded);
     if (!reading) {
       return failed(CutReason::unreachable,
@@ -62,7 +61,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
                                 design.holes[i].name, design.holes[i].commanded.x_mm,
                                 design.holes[i].commanded.y_mm, reading.error().sentence()));
     }
-    const model::MarkPoint at = spec.sheet.to_mark(reading->pose.position);
+    const MarkPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();
     const double dy = design.hole_sigma_mm * hole_noise.normal();
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});
@@ -72,7 +71,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
       observation::distance_geometry(design, made.places);
   const double tape = observation::tape_factor(made.truth);
   Random tape_noise(spec.seed, kTapeStream);
-  for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
+  for (const auto k : each_index(made.set.distances)) {
     HoleDistance& distance = made.set.distances[k];
     double reading = tape * geometry.predicted_mm[as_index(k)] + design.tape.tape_zero_offset_mm +
                      sigma_of(design, distance) * tape_noise.normal();
@@ -82,7 +81,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   Random bad(spec.seed, kBadStream);
   auto order = numbers_below(made.set.distances.size());
   bad.shuffle(order);
-  for (std::size_t k = 0; k < order.size() && static_cast<int>(k) < spec.bad_readings; ++k) {
+  for (std::size_t k = 0; k < order.size() && as_int(k) < spec.bad_readings; ++k) {
     made.set.distances[order[k]].distance_mm +=
         bad.uniform() < 0.5 ? -spec.bad_size_mm : spec.bad_size_mm;
     made.bad_readings.push_back(order[k]);

@@ -9,11 +9,11 @@
 /// \endcode
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/failure.hpp"
@@ -25,9 +25,9 @@ struct HolesSpec {
   bool draw_settings = false;
   /// Draw each chain's elongation with this sigma.
   double scale_sigma = 0.0;
-  std::vector<model::AppliedEffect> hidden{};
+  std::vector<AppliedEffect> hidden{};
   /// The sheet's placement, observable only by distances to its edges.
-  model::SheetPlacement sheet{};
+  SheetPlacement sheet{};
   /// Round readings to whole multiples of this; 0: all digits.
   double rounding_mm = 0.0;
   /// Number of readings with an error of bad_size_mm, of either sign.
@@ -37,13 +37,13 @@ struct HolesSpec {
 };
 
 struct SyntheticHoles {
-  MeasuredHoles set;                     ///< with the stated machine
-  model::Machine truth;                  ///< with the hidden changes
-  std::vector<model::MarkPoint> places;  ///< true positions of the holes on the sheet
+  MeasuredHoles set;              ///< with the stated machine
+  Machine truth;                  ///< with the hidden changes
+  std::vector<MarkPoint> places;  ///< true positions of the holes on the sheet
   /// For each hole: the lengths that the controller paid out.
-  std::vector<model::ChainLengths> lengths{};
+  std::vector<ChainLengths> lengths{};
   /// Indices into the distances of the bad readings.
-  std::vector<std::size_t> bad_readings{};
+  Indices bad_readings{};
 };
 
 enum class CutReason {
@@ -59,9 +59,9 @@ using CutFailure = Failure<CutReason>;
 /// machine.
 [[nodiscard]] tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     const MeasuredHoles& design, const HolesSpec& spec,
-    const std::optional<model::Machine>& truth = std::nullopt);
+    const std::optional<Machine>& truth = std::nullopt);
 
 /// The stated machine with the hidden changes of a spec.
-model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec);
+Machine hidden_truth(const Machine& stated, const HolesSpec& spec);
 
 }  // namespace chaintrue::grid::synthetic

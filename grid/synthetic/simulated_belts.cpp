@@ -8,24 +8,22 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/random.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::synthetic {
-
-using model::Belt;
-using model::kBelts;
 
 namespace {
 
 /// Streams of the seed: draws of one do not depend on the others.
 enum BeltStream : std::uint64_t { kNoiseStream = 1, kBadReadingStream = 2 };
 
-std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const BeltsSpec& spec) {
+std::vector<BedPoint> commands_of(const BeltMachine& stated, const BeltsSpec& spec) {
   const auto& a = stated.anchors;
   const double width = spec.width_share * 0.5 * (a.br.x_mm + a.tr.x_mm - a.tl.x_mm);
   const double height = spec.height_share * 0.5 * (a.tl.y_mm + a.tr.y_mm);
-  std::vector<model::BedPoint> commands;
+  std::vector<BedPoint> commands;
   for (int row = 0; row < spec.rows; ++row) {
     for (int i = 0; i < spec.columns; ++i) {
       const int column = row % 2 == 0 ? i : spec.columns - 1 - i;
@@ -37,11 +35,10 @@ std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const
 }
 
 /// The tool's position when the upper belts have the lengths paid out for a command.
-tl::expected<model::FramePoint, model::BeltFailure> place_of(const model::BeltMachine& stated,
-                                                             const model::BeltMachine& truth,
-                                                             model::BedPoint command) {
+tl::expected<FramePoint, model::BeltFailure> place_of(const BeltMachine& stated,
+                                                      const BeltMachine& truth, BedPoint command) {
   const auto paid_out = model::lengths_at(stated, model::to_frame(stated, command));
-  if (!paid_out) return tl::unexpected(paid_out.error());
+  if (!paid_out) return failed(paid_out);
   return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
 }
 
@@ -53,19 +50,18 @@ std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {
 }
 
 /// All places once, numbered on. \returns the place that cannot be reached.
-std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
-                                         const model::BeltMachine& truth, const BeltsSpec& spec,
-                                         const std::optional<BeltPull>& pull, Random& noise,
-                                         MeasuredBelts& belts) {
+std::optional<BeltsUnreachable> add_pass(const BeltMachine& stated, const BeltMachine& truth,
+                                         const BeltsSpec& spec, const std::optional<BeltPull>& pull,
+                                         Random& noise, MeasuredBelts& belts) {
   const auto effects = model::effects::resolve(model::belts::belt_effects(), spec.hidden);
-  const std::vector<model::BedPoint> commands = commands_of(stated, spec);
+  const std::vector<BedPoint> commands = commands_of(stated, spec);
   const double over_least = pull ? pull->value / *min_element(spec.pulls) : 1.0;
-  for (std::size_t i = 0; i < commands.size(); ++i) {
+  for (const auto i : each_index(commands)) {
     const auto place = place_of(stated, truth, commands[i]);
     if (!place) return place.error().at(commands[i]);
     BeltPoint point;
     point.commanded = commands[i];
-    point.order = static_cast<int>(belts.points.size());
+    point.order = as_int(belts.points.size());
     point.pull = pull;
     const auto pulled =
         pulled_after(stated.orientation, commands[i == 0 ? 0 : i - 1], commands[i], i);
@@ -89,7 +85,7 @@ void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
   Random random(spec.seed, kBadReadingStream);
   auto points = numbers_below(belts.points.size());
   random.shuffle(points);
-  for (std::size_t i = 0; i < as_size(spec.bad_readings); ++i) {
+  for (const std::size_t i : each_below(as_size(spec.bad_readings))) {
     const Belt belt = kBelts[random.below(kBelts.size())];
     const double sign = random.below(2) == 0 ? 1.0 : -1.0;
     belts.points[points[i]].lengths_mm[belt] += sign * spec.bad_size_mm;
@@ -106,8 +102,8 @@ void check(const BeltsSpec& spec) {
 
 }  // namespace
 
-tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const model::BeltMachine& stated,
-                                                             const model::BeltMachine& truth,
+tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const BeltMachine& stated,
+                                                             const BeltMachine& truth,
                                                              const BeltsSpec& spec) {
   check(spec);
   MeasuredBelts belts;

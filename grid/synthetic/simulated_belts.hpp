@@ -34,17 +34,17 @@ struct BeltsSpec {
   /// All places once with each of these pulls, relative; sizes of effects are those at the least.
   /// Empty: once, without a stated pull.
   std::vector<double> pulls{};
-  std::vector<model::AppliedEffect> hidden{};
+  std::vector<AppliedEffect> hidden{};
   std::uint64_t seed = 1;
 };
 
 /// Its place is the command.
-using BeltsUnreachable = Failure<model::BeltReason, model::BedPoint>;
+using BeltsUnreachable = Failure<model::BeltReason, BedPoint>;
 
 /// Rows from below, there and back. \throws std::logic_error for anchors that are not known, effects
 /// with problems (model::effects::problems_in), fewer than two columns or rows, or more bad readings
 /// than there are points.
 [[nodiscard]] tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(
-    const model::BeltMachine& stated, const model::BeltMachine& truth, const BeltsSpec& spec);
+    const BeltMachine& stated, const BeltMachine& truth, const BeltsSpec& spec);
 
 }  // namespace chaintrue::grid::synthetic

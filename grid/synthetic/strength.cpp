@@ -17,15 +17,12 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::AppliedEffect;
-using model::Machine;
 using model::Visit;
 
-std::vector<model::ChainLengths> lengths_of(const Machine& machine,
-                                            const std::vector<Visit>& visits) {
-  const auto lengths = model::readings(model::ReadingModel(machine), visits);
+std::vector<ChainLengths> lengths_of(const Machine& machine, const std::vector<Visit>& visits) {
+  const auto lengths = model::readings(ReadingModel(machine), visits);
   if (!lengths) {
-    const model::BedPoint p = visits[lengths.error().place].position;
+    const BedPoint p = visits[lengths.error().place].position;
     throw precondition("signature: ({}, {}) mm cannot be reached: {}", p.x_mm, p.y_mm,
                        lengths.error().sentence());
   }
@@ -41,14 +38,14 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
   Random unused(0);
   std::vector<Visit> visits;
   for (const Mark& mark : marks(machine.bed, design, unused)) {
-    visits.push_back({model::identity_placement(mark.place), static_cast<int>(visits.size())});
+    visits.push_back({model::identity_placement(mark.place), as_int(visits.size())});
   }
   return visits;
 }
 
 std::vector<Vector2d> SessionSignature::tool_shift_mm() const {
   std::vector<Vector2d> shift;
-  for (std::size_t i = 0; i < residual_mm.size(); ++i) {
+  for (const auto i : each_index(residual_mm)) {
     shift.emplace_back(-length_by_xy[i].inverse() * residual_mm[i]);
   }
   return shift;
@@ -58,20 +55,20 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
                            const std::vector<Visit>& visits) {
   Machine true_machine = stated;
   append_all(true_machine.effects, effects);
-  const model::ReadingModel plain(stated);
+  const ReadingModel plain(stated);
   const model::MarkFrame mark_frame(true_machine);
   const model::MarkFrame stated_mark_frame(stated);
-  const std::vector<model::ChainLengths> before = lengths_of(stated, visits);
-  const std::vector<model::ChainLengths> after = lengths_of(true_machine, visits);
+  const std::vector<ChainLengths> before = lengths_of(stated, visits);
+  const std::vector<ChainLengths> after = lengths_of(true_machine, visits);
   SessionSignature result;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
+  for (const auto i : each_index(visits)) {
     const auto reading = plain.at(visits[i].position);
     if (!reading) {
       throw precondition("signature: visit {}: {}", i, reading.error().sentence());
     }
-    const model::MarkPoint place = model::identity_placement(visits[i].position);
-    const model::MarkPoint written = mark_frame.written(place);
-    const model::MarkPoint usual = stated_mark_frame.written(place);
+    const MarkPoint place = model::identity_placement(visits[i].position);
+    const MarkPoint written = mark_frame.written(place);
+    const MarkPoint usual = stated_mark_frame.written(place);
     const Vector2d moved = difference(written, usual);
     const Vector2d gained = difference(after[i], before[i]);
     result.length_by_xy.push_back(reading->position_jacobian);
@@ -80,7 +77,7 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
   return result;
 }
 
-StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Visit> visits,
+StrengthTable::StrengthTable(const Machine& stated, std::vector<model::Visit> visits,
                              const StatedNoise& noise)
     : stated_(stated), visits_(std::move(visits)) {
   if (!(noise.length_mm > 0.0 && noise.position_mm >= 0.0)) {
@@ -88,10 +85,10 @@ StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Vi
                        noise.position_mm);
   }
   const auto count = std::ssize(visits_);
-  const auto settings = std::ssize(model::kMachineSettings);
+  const auto settings = std::ssize(kMachineSettings);
   MatrixXd by_setting = MatrixXd::Zero(2 * count + settings, settings);
-  const model::ReadingModel model(stated);
-  for (Index i = 0; i < count; ++i) {
+  const ReadingModel model(stated);
+  for (const Index i : each_below(count)) {
     const auto reading = model.at(visits_[as_size(i)].position);
     if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
     const Matrix2d& j = reading->position_jacobian;
@@ -99,15 +96,14 @@ StrengthTable::StrengthTable(const model::Machine& stated, std::vector<model::Vi
                                 Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
     length_by_xy_.push_back(j);
     whitening_.emplace_back(estimation::unit_whitening(covariance));
-    for (Index k = 0; k < settings; ++k) {
+    for (const Index k : each_below(settings)) {
       by_setting.block<2, 1>(2 * i, k) =
-          whitening_.back() * model.sensitivity(*reading, model::kMachineSettings[as_size(k)]);
+          whitening_.back() * model.sensitivity(*reading, kMachineSettings[as_size(k)]);
     }
   }
-  for (Index k = 0; k < settings; ++k) {
+  for (const Index k : each_below(settings)) {
     by_setting(2 * count + k, k) =
-        1.0 /
-        std::max(kKnownSigma, model::stated_sigma(stated, model::kMachineSettings[as_size(k)]));
+        1.0 / std::max(kKnownSigma, model::stated_sigma(stated, kMachineSettings[as_size(k)]));
   }
   settings_basis_ = linear::orthonormal_columns(by_setting);
   for (const Effect* effect : model::effects::effects_of(stated_)) {
@@ -155,11 +151,10 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
   return result;
 }
 
-std::vector<Vector2d> StrengthTable::calibrated_shift_mm(
-    const model::AppliedEffect& applied) const {
+std::vector<Vector2d> StrengthTable::calibrated_shift_mm(const AppliedEffect& applied) const {
   const VectorXd left = entry(applied).left;
   std::vector<Vector2d> shift;
-  for (std::size_t i = 0; i < visits_.size(); ++i) {
+  for (const auto i : each_index(visits_)) {
     const Vector2d pair = left.segment<2>(2 * as_index(i));
     shift.emplace_back(-length_by_xy_[i].inverse() * (whitening_[i].inverse() * pair));
   }
@@ -170,9 +165,9 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
                                                               std::size_t visits) {
   constexpr int kSteps = 12;
   std::vector<std::vector<double>> choices = {model::effects::nominal_values(effect)};
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+  for (const auto i : each_index(effect.parameters)) {
     const EffectParameter& parameter = effect.parameters[i];
-    if (parameter.role != model::effects::ParameterRole::place) continue;
+    if (parameter.role != ParameterRole::place) continue;
     const bool counts_visits = parameter.integer;
     const bool declared = effect.law != nullptr;
     const double from = counts_visits ? 1.0
@@ -183,7 +178,7 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
                                     : std::min(parameter.upper, std::numbers::pi);
     std::vector<std::vector<double>> more;
     for (const auto& choice : choices) {
-      for (int k = 0; k < kSteps; ++k) {
+      for (const int k : each_below(kSteps)) {
         std::vector<double> other = choice;
         const double place = from + (to - from) * (k + 0.5) / kSteps;
         other[i] = counts_visits ? std::floor(place) : place;
@@ -198,7 +193,7 @@ std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effe
 void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
   bool usual = true;
   for (const auto& values : place_choices(effect, visits_.size())) {
-    model::Machine with = stated_;
+    Machine with = stated_;
     with.effects.push_back(model::effects::applied(effect, side, values));
     if (!model::effects::problems_of_effects(with).empty()) return;  // cannot act on such a machine
     entries_.push_back(entry(with.effects.back()));
@@ -209,11 +204,11 @@ void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
   }
 }
 
-StrengthTable::Entry StrengthTable::entry(const model::AppliedEffect& applied) const {
+StrengthTable::Entry StrengthTable::entry(const AppliedEffect& applied) const {
   Entry result{};
   const std::vector<Vector2d> residual_mm = signature(stated_, {applied}, visits_).residual_mm;
   VectorXd g = VectorXd::Zero(settings_basis_.rows());
-  for (std::size_t i = 0; i < visits_.size(); ++i)
+  for (const auto i : each_index(visits_))
     g.segment<2>(2 * as_index(i)) = whitening_[i] * residual_mm[i];
   result.norm = g.norm();
   result.left = g - settings_basis_ * (settings_basis_.transpose() * g);

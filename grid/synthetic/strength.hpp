@@ -30,8 +30,8 @@
 #include <optional>
 #include <vector>
 
-#include "grid/eigen.hpp"
 #include "grid/observation/measured_grid.hpp"
+#include "interp/eigen.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
@@ -42,7 +42,7 @@ inline constexpr double kDetectableSignalToNoise = 4.8;
 inline constexpr double kInseparable = 0.9995;
 
 /// Marks of a regular grid, visited row by row.
-std::vector<model::Visit> regular_session(const model::Machine& machine, int columns, int rows);
+std::vector<model::Visit> regular_session(const Machine& machine, int columns, int rows);
 
 /// The changes of a session's readings by effects.
 struct SessionSignature {
@@ -53,13 +53,12 @@ struct SessionSignature {
 };
 
 /// \throws std::invalid_argument if a visit cannot be reached.
-SessionSignature signature(const model::Machine& stated,
-                           const std::vector<model::AppliedEffect>& effects,
+SessionSignature signature(const Machine& stated, const std::vector<AppliedEffect>& effects,
                            const std::vector<model::Visit>& visits);
 
 struct Rival {
-  const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side = model::effects::EffectSide::none;
+  const Effect* effect = nullptr;
+  EffectSide side = EffectSide::none;
   double collinearity = 0.0;
 };
 
@@ -82,19 +81,14 @@ struct EffectStrength {
 /// The signatures of the whole catalogue over one session.
 class StrengthTable {
  public:
-  using Effect = model::effects::Effect;
-  using EffectParameter = model::effects::EffectParameter;
-  using EffectSide = model::effects::EffectSide;
-
   /// \throws std::invalid_argument if a visit cannot be reached or a noise is not above 0.
-  StrengthTable(const model::Machine& stated, std::vector<model::Visit> visits,
-                const StatedNoise& noise);
+  StrengthTable(const Machine& stated, std::vector<model::Visit> visits, const StatedNoise& noise);
 
   EffectStrength strength(const Effect& effect, EffectSide side) const;
 
   /// The change of the tool's position at each visit by an effect, after calibration of the
   /// settings on these visits.
-  std::vector<Vector2d> calibrated_shift_mm(const model::AppliedEffect& applied) const;
+  std::vector<Vector2d> calibrated_shift_mm(const AppliedEffect& applied) const;
 
  private:
   /// Sigma of what is stated exactly, in mm: below every other number here.
@@ -112,11 +106,11 @@ class StrengthTable {
 
   void add_entries(const Effect& effect, EffectSide side);
 
-  Entry entry(const model::AppliedEffect& applied) const;
+  Entry entry(const AppliedEffect& applied) const;
 
   const Entry& usual(const Effect& effect, EffectSide side) const;
 
-  model::Machine stated_;
+  Machine stated_;
   std::vector<model::Visit> visits_;
   std::vector<Matrix2d> whitening_;  ///< inverse Cholesky factors of C_i
   std::vector<Matrix2d> length_by_xy_;

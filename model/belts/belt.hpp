@@ -40,3 +40,9 @@ std::optional<Belt> belt_of(std::string_view word);
 constexpr bool is_upper(Belt belt) { return belt == Belt::tl || belt == Belt::tr; }
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::Belt;
+using model::kBelts;
+using model::PerBelt;
+}  // namespace chaintrue

@@ -90,3 +90,8 @@ FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 [[nodiscard]] std::vector<MachineProblem> problems_of(const BeltMachine& machine);
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::BeltMachine;
+using model::FramePoint;
+}  // namespace chaintrue

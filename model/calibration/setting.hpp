@@ -47,3 +47,7 @@ double stated_sigma(const Machine& machine, Setting setting);
 [[nodiscard]] Machine with_setting(Machine machine, Setting setting, double value);
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::kMachineSettings;
+}  // namespace chaintrue

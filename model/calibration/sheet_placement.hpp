@@ -24,3 +24,7 @@ struct SheetPlacement {
 };
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::SheetPlacement;
+}  // namespace chaintrue

@@ -117,3 +117,7 @@ PlaceVariable place_variable(const Effect& effect);
 std::string_view name(ActsOn acts_on);
 
 }  // namespace chaintrue::model::effects
+
+namespace chaintrue {
+using model::effects::PlaceVariable;
+}  // namespace chaintrue

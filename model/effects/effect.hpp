@@ -234,3 +234,12 @@ EffectSide mirrored(EffectSide side);
 bool acts_on(EffectSide effect_side, Side chain);
 
 }  // namespace chaintrue::model::effects
+
+namespace chaintrue {
+using model::effects::DataNeed;
+using model::effects::Effect;
+using model::effects::EffectParameter;
+using model::effects::EffectSide;
+using model::effects::ParameterRole;
+using model::effects::Station;
+}  // namespace chaintrue

@@ -97,3 +97,7 @@ inline bool is_point(const Gondola& gondola) { return gondola.spacing_mm == 0.0;
 [[nodiscard]] std::vector<MachineProblem> problems_of(const PlotterMachine& machine);
 
 }  // namespace chaintrue::model
+
+namespace chaintrue {
+using model::PlotterMachine;
+}  // namespace chaintrue

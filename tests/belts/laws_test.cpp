@@ -8,11 +8,10 @@
 #include <numbers>
 
 #include "grid/diagnosis/belts_analysis.hpp"
-#include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/law_words.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/whole_file.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Causes named once a law is known: those of the same readings without the law.
-#include "grid/diagnosis/causes_given_law.hpp"
+#include "grid/diagnosis/laws.hpp"
 
 #include <gmock/gmock.h>
 

@@ -10,9 +10,9 @@
 
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/law_declaration.hpp"
+#include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/regressor_places.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/files/effect_file.hpp"
 #include "model/effects/catalogue.hpp"

@@ -9,9 +9,8 @@
 #include <map>
 #include <set>
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
-#include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/random.hpp"
 #include "interp/linear_algebra.hpp"

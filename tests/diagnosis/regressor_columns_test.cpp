@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Columns stored as multiples of shared columns, compared with the full matrix.
-#include "grid/diagnosis/regressor_columns.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 #include <gtest/gtest.h>
 

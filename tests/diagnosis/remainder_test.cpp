@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "tests/diagnosis/sessions.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/planning/second_visits.hpp"
+#include "grid/planning/measurement_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The page draws what is measured: every cross and every line of a bow, inside the drawing area.
-#include "grid/plotter/drawing_page.hpp"
+#include "grid/plotter/test_drawing.hpp"
 
 #include <gmock/gmock.h>
 

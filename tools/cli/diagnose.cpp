@@ -13,7 +13,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/diagnosis/law_declaration.hpp"
+#include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/drawing_file.hpp"

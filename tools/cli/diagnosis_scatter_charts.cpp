@@ -7,8 +7,8 @@
 #include <functional>
 #include <numbers>
 
-#include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
+#include "grid/plane_vectors.hpp"
 #include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 

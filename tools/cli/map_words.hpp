@@ -10,7 +10,7 @@
 
 #include "grid/belts/belts_and_holes.hpp"
 #include "grid/belts/belts_error.hpp"
-#include "grid/belts/point_indices.hpp"
+#include "grid/belts/measured_belts.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/names.hpp"

@@ -13,7 +13,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/planning/check_plan.hpp"
-#include "grid/planning/second_visits.hpp"
+#include "grid/planning/measurement_plan.hpp"
 #include "model/chains/chain_changes.hpp"
 #include "tools/cli/sheet.hpp"
 #include "tools/cli/verb.hpp"

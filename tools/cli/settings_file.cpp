@@ -14,7 +14,7 @@
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/map/check_settings.hpp"
+#include "grid/map/map_check.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "tools/cli/talk.hpp"

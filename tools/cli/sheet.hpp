@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "grid/map/fitted_distances.hpp"
+#include "grid/map/fitted_points.hpp"
 #include "grid/observation/measured.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/observation/measured_holes.hpp"

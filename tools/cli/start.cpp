@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/planning/second_visits.hpp"
+#include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/sheet.hpp"
 #include "tools/cli/verb.hpp"
 

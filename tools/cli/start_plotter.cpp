@@ -7,7 +7,7 @@
 
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"
-#include "grid/plotter/drawing_page.hpp"
+#include "grid/plotter/test_drawing.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/belts_analysis.hpp"
-#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/evidence.hpp"

@@ -10,7 +10,7 @@
 
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/law_declaration.hpp"
+#include "grid/diagnosis/law_words.hpp"
 #include "grid/files/grid_file.hpp"
 #include "sealed/judge/belts_trial.hpp"
 #include "sealed/judge/map_errors.hpp"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/law_residuals.hpp"
+#include "grid/diagnosis/law_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/eigen.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -86,9 +83,9 @@ bool is_at(const SystemUnit& unit, const Holds& holds) {
 /// Every fourth place.
 std::vector<Indices> folds(const RegressorSystem& system, const KeptRows& kept) {
   std::vector<Indices> result(kFolds);
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+  for (const std::size_t fold : each_below(kFolds)) {
     const auto is_of_fold = [&](std::size_t number) { return number % kFolds == fold; };
-    for (std::size_t k = 0; k < kept.units().size(); ++k) {
+    for (const auto k : each_index(kept.units())) {
       const std::size_t unit = kept.units()[k].unit;
       if (joins_places(system) ? is_at(system.units[unit], is_of_fold) : is_of_fold(k))
         result[fold].push_back(unit);
@@ -154,7 +151,7 @@ class Predictor {
 
   double square_mm2(const VectorXd& wrong, const Rows& out, const Indices& units) const {
     VectorXd rows = VectorXd::Zero(system_.e.size());
-    for (Index k = 0; k < wrong.size(); ++k)
+    for (const Index k : each_below(wrong.size()))
       rows(kept_.rows()[as_size(out[as_size(k)])]) = wrong(k);
     return std::pow(rms_of_units_mm(system_, kept_, rows, units), 2);
   }
