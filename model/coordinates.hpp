@@ -49,6 +49,7 @@ inline constexpr Side kSides[] = {Side::left, Side::right};
 
 }  // namespace chaintrue::model
 
+/// All folders use these, without the namespace of this one.
 namespace chaintrue {
 using model::BedPoint;
 using model::ChainLengths;

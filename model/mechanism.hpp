@@ -234,6 +234,7 @@ inline constexpr double kParameterShiftSigma = 5.0;
 
 }  // namespace chaintrue::model
 
+/// All folders use these, without the namespace of this one.
 namespace chaintrue {
 using model::Mechanism;
 using model::ToolPosition;

@@ -151,6 +151,7 @@ using VisitFailure = Failure<PoseReason, std::size_t>;
 
 }  // namespace chaintrue::model
 
+/// All folders use these, without the namespace of this one.
 namespace chaintrue {
 using model::ReadingModel;
 using model::Setting;

@@ -91,6 +91,7 @@ FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 
 }  // namespace chaintrue::model
 
+/// All folders use these, without the namespace of this one.
 namespace chaintrue {
 using model::BeltMachine;
 using model::FramePoint;

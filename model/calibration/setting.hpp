@@ -48,6 +48,7 @@ double stated_sigma(const Machine& machine, Setting setting);
 
 }  // namespace chaintrue::model
 
+/// All folders use it, without the namespace of this one.
 namespace chaintrue {
 using model::kMachineSettings;
 }  // namespace chaintrue

@@ -25,6 +25,7 @@ struct SheetPlacement {
 
 }  // namespace chaintrue::model
 
+/// All folders use it, without the namespace of this one.
 namespace chaintrue {
 using model::SheetPlacement;
 }  // namespace chaintrue

@@ -118,6 +118,7 @@ std::string_view name(ActsOn acts_on);
 
 }  // namespace chaintrue::model::effects
 
+/// All folders use it, without the namespace of this one.
 namespace chaintrue {
 using model::effects::PlaceVariable;
 }  // namespace chaintrue
