@@ -170,8 +170,7 @@ std::string distances_in_number(const MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.
 std::string workshop_list(const grid::HolesPlan& plan);
 
-// The next measurements of a diagnosis, as a list for the workshop and as lines for the grid's
-// file; those for the holes' file are in follow_up_holes.hpp.
+// The next measurements of a diagnosis, as a list for the workshop and as lines for the file of marks.
 /// The number of the next visit; empty where visits are not numbered.
 template <class Points>
 std::optional<int> next_visit(const Points& points) {
