@@ -198,13 +198,8 @@ MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
 
 ThinSvd thin_svd(const MatrixXd& a) {
   if (a.size() == 0) return {MatrixXd(a.rows(), 0), VectorXd(0)};
-  const auto parts = [](const auto& svd) { return ThinSvd{svd.matrixU(), svd.singularValues()}; };
-  ThinSvd result = parts(Eigen::BDCSVD<MatrixXd>(a, Eigen::ComputeThinU));
-  // For finite matrices with nearly equal singular values Eigen 3.4.0's divide and conquer gives
-  // NaN; Jacobi rotations are slower but do not.
-  if (!result.u.allFinite() || !result.values.allFinite())
-    result = parts(Eigen::JacobiSVD<MatrixXd>(a, Eigen::ComputeThinU));
-  return result;
+  const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeThinU);
+  return {svd.matrixU(), svd.singularValues()};
 }
 
 MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
