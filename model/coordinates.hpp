@@ -49,7 +49,7 @@ inline constexpr Side kSides[] = {Side::left, Side::right};
 
 }  // namespace chaintrue::model
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::BedPoint;
 using model::ChainLengths;

@@ -134,7 +134,7 @@ void require_none(const std::vector<MachineProblem>& problems);
 
 }  // namespace chaintrue::model
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::AppliedEffect;
 using model::Bed;

@@ -234,7 +234,7 @@ inline constexpr double kParameterShiftSigma = 5.0;
 
 }  // namespace chaintrue::model
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::Mechanism;
 using model::ToolPosition;

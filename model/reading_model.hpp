@@ -151,7 +151,7 @@ using VisitFailure = Failure<PoseReason, std::size_t>;
 
 }  // namespace chaintrue::model
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::ReadingModel;
 using model::Setting;

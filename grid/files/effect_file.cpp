@@ -17,9 +17,6 @@ namespace {
 using model::effects::Declaration;
 using model::effects::DeclarationProblem;
 using model::effects::DeclaredParameter;
-using model::effects::Effect;
-using model::effects::EffectSide;
-using model::effects::ParameterRole;
 
 /// The usual size is one sigma from null; a place may be anywhere, 0 if allowed.
 double assumed_nominal(const DeclaredParameter& p) {

@@ -41,7 +41,7 @@ constexpr bool is_upper(Belt belt) { return belt == Belt::tl || belt == Belt::tr
 
 }  // namespace chaintrue::model
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::Belt;
 using model::kBelts;

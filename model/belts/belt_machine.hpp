@@ -91,7 +91,7 @@ FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 
 }  // namespace chaintrue::model
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::BeltMachine;
 using model::FramePoint;

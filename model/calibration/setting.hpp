@@ -48,7 +48,7 @@ double stated_sigma(const Machine& machine, Setting setting);
 
 }  // namespace chaintrue::model
 
-/// All folders use it, without the namespace of this one.
+/// Exported: this name is used throughout chaintrue.
 namespace chaintrue {
 using model::kMachineSettings;
 }  // namespace chaintrue

@@ -25,7 +25,7 @@ struct SheetPlacement {
 
 }  // namespace chaintrue::model
 
-/// All folders use it, without the namespace of this one.
+/// Exported: this name is used throughout chaintrue.
 namespace chaintrue {
 using model::SheetPlacement;
 }  // namespace chaintrue

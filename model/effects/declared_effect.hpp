@@ -118,7 +118,7 @@ std::string_view name(ActsOn acts_on);
 
 }  // namespace chaintrue::model::effects
 
-/// All folders use it, without the namespace of this one.
+/// Exported: this name is used throughout chaintrue.
 namespace chaintrue {
 using model::effects::PlaceVariable;
 }  // namespace chaintrue

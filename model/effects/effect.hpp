@@ -235,7 +235,7 @@ bool acts_on(EffectSide effect_side, Side chain);
 
 }  // namespace chaintrue::model::effects
 
-/// All folders use these, without the namespace of this one.
+/// Exported: these names are used throughout chaintrue.
 namespace chaintrue {
 using model::effects::DataNeed;
 using model::effects::Effect;

@@ -98,7 +98,7 @@ inline bool is_point(const Gondola& gondola) { return gondola.spacing_mm == 0.0;
 
 }  // namespace chaintrue::model
 
-/// All folders use it, without the namespace of this one.
+/// Exported: this name is used throughout chaintrue.
 namespace chaintrue {
 using model::PlotterMachine;
 }  // namespace chaintrue
