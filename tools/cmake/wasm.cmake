@@ -49,16 +49,3 @@ function(chaintrue_link_for_pages target)
     -sALLOW_MEMORY_GROWTH -sTOTAL_STACK=8388608 -sFORCE_FILESYSTEM
     -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -sEXPORTED_RUNTIME_METHODS=FS,callMain)
 endfunction()
-
-# chaintrue_compile_small(target...): the page is sent by mail. Optimised for size, computations
-# would take five times as long; reading, printing and drawing are not noticeably slower.
-function(chaintrue_compile_small)
-  if(CHAINTRUE_PRECOMPILED_HEADERS)
-    chaintrue_precompile(chaintrue_common_small "Eigen3::Eigen;fmt::fmt;tl::expected" ${chaintrue_common_headers})
-    target_compile_options(chaintrue_common_small PRIVATE -Os)
-  endif()
-  foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE -Os)
-    chaintrue_use_precompiled(${target} chaintrue_common_small)
-  endforeach()
-endfunction()
