@@ -8,6 +8,8 @@ endif()
 foreach(library gtest gmock)
   file(CREATE_LINK /usr/include/${library} ${page_headers}/${library} SYMBOLIC)
 endforeach()
+# Levenberg and Marquardt of the laboratory's firmware.
+file(COPY /usr/include/eigen3/unsupported DESTINATION ${page_headers}/eigen3)
 add_library(chaintrue_googletest STATIC EXCLUDE_FROM_ALL
   ${googletest}/googletest/src/gtest-all.cc ${googletest}/googlemock/src/gmock-all.cc)
 target_include_directories(chaintrue_googletest SYSTEM PUBLIC ${page_headers} PRIVATE ${googletest}/googletest ${googletest}/googlemock)

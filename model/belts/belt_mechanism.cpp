@@ -120,8 +120,8 @@ FrameScale BeltMechanism::frame_scale() const {
 
 tl::expected<belts::AnchorNumber, BeltFailure> BeltMechanism::print(const belts::BeltVisit& visit,
                                                                     FramePoint place) const {
-  // The same result without effects in a third of the time; printed spans differ by rounding.
-  if (acting_.empty() && machine_.lengths != BeltLengths::span) {
+  // The same result without effects in a third of the time; other printed lengths differ by rounding.
+  if (acting_.empty() && machine_.lengths == BeltLengths::belt) {
     return reading_at(machine_, visit.belt, place).map([&](const BeltReading& reading) {
       return belts::of_anchor(reading, visit.belt);
     });

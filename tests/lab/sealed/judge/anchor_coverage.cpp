@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sealed/judge/anchor_coverage.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "grid/belts/anchor_fit.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/random.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
@@ -76,7 +76,7 @@ Outcome coverage_of(const std::string& effect, std::uint64_t seed, int side) {
   grid::synthetic::BeltsSpec spec;
   spec.columns = spec.rows = side;
   spec.seed = seed;
-  const UsualCause& cause = *std::ranges::find(kUsual, effect, &UsualCause::effect);
+  const UsualCause& cause = *grid::find_where(kUsual, grid::having(&UsualCause::effect, effect));
   if (cause.most > 0.0) {
     grid::Random random(seed, effect.size());
     spec.hidden.push_back(drawn(cause, side * side, random));

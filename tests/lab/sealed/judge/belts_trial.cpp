@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/belts_analysis.hpp"
 #include "grid/diagnosis/constants.hpp"
@@ -30,8 +31,8 @@ namespace {
 
 bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
   if (found.outliers.size() != secret.bad.size()) return false;
-  return std::ranges::all_of(found.outliers, [&](const auto& bad) {
-    return std::ranges::any_of(secret.bad, [&](const auto& hidden) {
+  return grid::all_of(found.outliers, [&](const auto& bad) {
+    return grid::any_of(secret.bad, [&](const auto& hidden) {
       return bad.belt && static_cast<int>(bad.index) == hidden[0] &&
              (static_cast<int>(*bad.belt) == hidden[1] ||
               (bad.or_belt && static_cast<int>(*bad.or_belt) == hidden[1]));
@@ -51,16 +52,16 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
   for (const diagnosis::ClassProbability& one : a.decision.marginal) {
     if (leading.size() < kCompared) leading.push_back(a.decision.classes[one.index].front());
   }
-  const auto hidden = std::ranges::find_if(leading, [&](const auto& cause) {
+  const auto* hidden = grid::find_where(leading, [&](const auto& cause) {
     return cause.effect->id == secret.effect && name(cause.side) == secret.side;
   });
-  if (hidden == leading.end()) return false;
+  if (!hidden) return false;
   const auto column = [&a](const diagnosis::CauseId& cause) {
     return diagnosis::reduced(diagnosis::marginalised_system(a),
                               a.system.g.col(diagnosis::best_regressor(a, cause)));
   };
   const Eigen::VectorXd own = column(*hidden);
-  return std::ranges::all_of(leading, [&](const diagnosis::CauseId& other) {
+  return grid::all_of(leading, [&](const diagnosis::CauseId& other) {
     if (other == *hidden) return true;
     const Eigen::VectorXd its = column(other);
     const double collinearity = diagnosis::collinearity_of(own.dot(its), own.norm() * its.norm());

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
@@ -171,8 +172,8 @@ std::vector<Claim> given_law(const grid::diagnosis::Diagnosis& found, std::vecto
 void judge_names(const std::vector<Claim>& named, const Trial& trial, const std::string& given,
                  Outcome& outcome) {
   outcome.add("right" + given,
-              std::ranges::any_of(named, [&](const Claim& one) { return trial.is_hidden(one); }));
-  outcome.add("wrong" + given, std::ranges::any_of(named, [&](const Claim& one) {
+              grid::any_of(named, [&](const Claim& one) { return trial.is_hidden(one); }));
+  outcome.add("wrong" + given, grid::any_of(named, [&](const Claim& one) {
                 return !trial.is_hidden(one) && one.probability >= grid::diagnosis::kLawClaimed;
               }));
 }
@@ -217,7 +218,7 @@ void judge_laws(const grid::diagnosis::Diagnosis& found, const generator::SizedL
   const auto is_right = [&](const Law& law) {
     return is_variable_of(truth, entries, law) && law.enters == entry_of(truth, entries);
   };
-  outcome.add("in_set", std::ranges::any_of(laws, is_right));
+  outcome.add("in_set", grid::any_of(laws, is_right));
   if (laws.empty() || !is_right(laws.front())) return;
   outcome.add("leads", true);
   const auto& left_out = laws.front().held_out;

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <tuple>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::sealed {
 namespace {
 
@@ -44,7 +46,7 @@ void Outcome::fail() {
 }
 
 bool Outcome::has(std::string_view fact) const {
-  return std::ranges::find(facts, fact) != facts.end() || fact == "is_" + verdict;
+  return grid::contains(facts, fact) || fact == "is_" + verdict;
 }
 
 std::string line_of(const Outcome& o) {
@@ -89,7 +91,7 @@ std::vector<Outcome> parse_outcomes(const std::string& text) {
 }
 
 std::vector<Outcome> sorted(std::vector<Outcome> outcomes) {
-  std::ranges::stable_sort(outcomes, {}, key);
+  grid::stable_sort(outcomes, grid::ascending(key));
   const auto is_same = [](const Outcome& a, const Outcome& b) {
     if (key(a) != key(b)) return false;
     if (line_of(a) != line_of(b))

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "sealed/judge/belts_trial.hpp"
 #include "sealed/judge/holes_trial.hpp"
 
@@ -103,7 +103,7 @@ std::vector<PlannedSet> plan() {
           {(k + 0.5) / kind.sets, {kind.name, kind.first_seed + static_cast<std::uint64_t>(k)}});
     }
   }
-  std::ranges::stable_sort(placed, {}, &Placed::at);
+  grid::stable_sort(placed, grid::ascending(&Placed::at));
   std::vector<PlannedSet> list;
   for (Placed& one : placed) list.push_back(std::move(one.set));
   return list;

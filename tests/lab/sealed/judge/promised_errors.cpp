@@ -13,6 +13,7 @@
 
 #include "generator/hidden/draw.hpp"
 #include "grid/belts/belts_error.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/grid_file.hpp"
@@ -297,8 +298,8 @@ void promised_by_belts(Outcome& outcome) {
 
 /// The page is laid as its crosses are drawn with the map: a drawing does not say where it hangs.
 void promised_by_plotter(Outcome& outcome) {
-  const auto kind =
-      std::ranges::find(kPlotterKinds, outcome.way(), [](PlotterKind one) { return name(one); });
+  const PlotterKind* kind =
+      grid::find_where(kPlotterKinds, [&](PlotterKind one) { return name(one) == outcome.way(); });
   const PlotterSet set = plotter_set(*kind, {}, 0.0, 0.0, outcome.seed);
   const auto fit = grid::fit_drawing(set.drawing);
   if (!fit) return outcome.fail();

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "sealed/judge/binomial.hpp"
 
 namespace chaintrue::sealed {
@@ -73,11 +73,11 @@ RowComparison compare_row(const RateRow& row,
 bool RateRow::counts(const Outcome& outcome) const {
   return (kind == "*" || outcome.kind == kind || outcome.kind.ends_with(":" + kind)) &&
          outcome.strength >= from_strength && outcome.strength < to_strength &&
-         std::ranges::all_of(among, [&](const std::string& fact) { return outcome.has(fact); });
+         grid::all_of(among, [&](const std::string& fact) { return outcome.has(fact); });
 }
 
 bool RateRow::right(const Outcome& outcome) const {
-  return std::ranges::all_of(facts, [&](const std::string& fact) { return outcome.has(fact); });
+  return grid::all_of(facts, [&](const std::string& fact) { return outcome.has(fact); });
 }
 
 std::vector<RateRow> rows_of(const std::string& name) {
@@ -94,7 +94,7 @@ std::vector<RateRow> rows_of(const std::string& name) {
 std::vector<std::string> kinds_of(const std::vector<RateRow>& rows) {
   std::vector<std::string> kinds;
   for (const RateRow& row : rows) {
-    if (std::ranges::find(kinds, row.kind) == kinds.end()) kinds.push_back(row.kind);
+    if (!grid::contains(kinds, row.kind)) kinds.push_back(row.kind);
   }
   return kinds;
 }
@@ -146,7 +146,7 @@ std::string numbers_table(const std::vector<Outcome>& outcomes) {
       "| kind | number | sets | mean | rms | median | least | most "
       "|\n|---|---|---|---|---|---|---|---|\n";
   for (auto& [what, values] : all) {
-    std::ranges::sort(values);
+    grid::sort(values);
     double sum = 0.0, squares = 0.0;
     for (const double value : values) {
       sum += value;
@@ -167,7 +167,7 @@ double RowComparison::difference() const {
 bool RowComparison::worse() const { return difference() < -kMarginPoints && p < kChance; }
 
 bool Comparison::worse() const {
-  return std::ranges::any_of(rows, [](const auto& row) { return row.worse(); });
+  return grid::any_of(rows, [](const auto& row) { return row.worse(); });
 }
 
 Comparison compare(const std::vector<Outcome>& frozen, const std::vector<Outcome>& now,

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
 #include "sealed/judge/follow_up.hpp"
 #include "sealed/judge/true_errors.hpp"
@@ -28,11 +28,10 @@ double strength_of(const generator::Answer& answer) {
 void add_names(const Trial& trial, Outcome& outcome) {
   for (const double least : {0.5, 0.9, 0.95, 0.99, 0.999}) {
     for (const bool right : {true, false}) {
-      outcome.add(
-          fmt::format("{}_{:g}", right ? "right" : "wrong", least),
-          trial.names_outright() && std::ranges::any_of(trial.causes, [&](const Claim& claim) {
-            return claim.probability >= least && trial.is_hidden(claim) == right;
-          }));
+      outcome.add(fmt::format("{}_{:g}", right ? "right" : "wrong", least),
+                  trial.names_outright() && grid::any_of(trial.causes, [&](const Claim& claim) {
+                    return claim.probability >= least && trial.is_hidden(claim) == right;
+                  }));
     }
   }
   outcome.named.clear();
@@ -51,9 +50,9 @@ void add_errors(const generator::SealedSet& set, const Diagnosis& found, Outcome
   outcome.numbers["oracle_mm"] = errors->oracle;
   outcome.numbers["extended_over_calibrated"] = errors->extended / errors->calibrated;
   // Naming a reading with a gross error hardly changes anything else.
-  const bool only_miscounts = std::ranges::all_of(
-      set.answer.hidden,
-      [](const generator::Hidden& h) { return h.cause == generator::Cause::link_miscount; });
+  const bool only_miscounts = grid::all_of(set.answer.hidden, [](const generator::Hidden& h) {
+    return h.cause == generator::Cause::link_miscount;
+  });
   const auto is_near = [](double reported, double truth) {
     return std::abs(reported - truth) <= 0.15 * std::abs(truth);
   };
@@ -82,9 +81,7 @@ std::string id_of(const grid::diagnosis::CauseId& cause) {
   return id_of(cause.effect->id, model::effects::name(cause.side));
 }
 
-bool Claim::means(std::string_view id) const {
-  return std::ranges::find(members, id) != members.end();
-}
+bool Claim::means(std::string_view id) const { return grid::contains(members, id); }
 
 std::string name_of(const Claim& claim) { return fmt::format("{}", fmt::join(claim.members, "~")); }
 
@@ -116,11 +113,11 @@ Trial::Trial(const Diagnosis& found) : verdict(found.verdict), causes(named_caus
 }
 
 bool Trial::is_hidden(const Claim& claim) const {
-  return std::ranges::any_of(hidden, [&](const std::string& id) { return claim.means(id); });
+  return grid::any_of(hidden, [&](const std::string& id) { return claim.means(id); });
 }
 
 bool Trial::is_named(const std::string& id) const {
-  return std::ranges::any_of(causes, [&](const Claim& claim) { return claim.means(id); });
+  return grid::any_of(causes, [&](const Claim& claim) { return claim.means(id); });
 }
 
 bool Trial::names_outright() const {
@@ -131,8 +128,8 @@ bool Trial::names_something() const { return names_outright() || verdict == Verd
 
 bool Trial::names_wrongly() const {
   if (verdict == Verdict::named_set)
-    return std::ranges::none_of(causes, [&](const Claim& claim) { return is_hidden(claim); });
-  return std::ranges::any_of(causes, [&](const Claim& claim) { return !is_hidden(claim); });
+    return grid::none_of(causes, [&](const Claim& claim) { return is_hidden(claim); });
+  return grid::any_of(causes, [&](const Claim& claim) { return !is_hidden(claim); });
 }
 
 Outcome outcome_of(const std::string& kind, std::uint64_t seed, const Trial& t) {
@@ -144,9 +141,8 @@ Outcome outcome_of(const std::string& kind, std::uint64_t seed, const Trial& t) 
   outcome.add("leads", leads);
   outcome.add("alone", t.verdict == Verdict::named && leads);
   outcome.add("held", !t.hidden.empty() && t.is_named(t.hidden.front()));
-  outcome.add("all", !t.hidden.empty() && std::ranges::all_of(t.hidden, [&](const auto& id) {
-                return t.is_named(id);
-              }));
+  outcome.add("all", !t.hidden.empty() &&
+                         grid::all_of(t.hidden, [&](const auto& id) { return t.is_named(id); }));
   outcome.add("outright", t.names_outright());
   outcome.add("nothing_false", !t.names_wrongly());
   outcome.add("no_false_claim",
@@ -156,8 +152,8 @@ Outcome outcome_of(const std::string& kind, std::uint64_t seed, const Trial& t) 
   outcome.add("no_pattern", !has_pattern);
   outcome.add("refused", t.verdict == Verdict::model_discrepancy);
   outcome.add("only_bad_points", t.verdict == Verdict::outliers);
-  outcome.add("bad_found", std::ranges::all_of(t.hidden_bad_points, [&](std::size_t i) {
-                return std::ranges::find(t.bad_points, i) != t.bad_points.end();
+  outcome.add("bad_found", grid::all_of(t.hidden_bad_points, [&](std::size_t i) {
+                return grid::contains(t.bad_points, i);
               }));
   outcome.add("no_more_bad", t.bad_points.size() <= t.hidden_bad_points.size());
   return outcome;
