@@ -39,12 +39,10 @@ class LawSystem {
  public:
   /// `number` of one of the comparison's marginalised systems; `sets` of the system's regressors.
   LawSystem(const Analysis& a, std::size_t number, const std::vector<RegressorSet>& sets)
-      : own_(a.system),
+      : own_{a.system, {}, {}},
         marginalised_(marginalise(a.system, a.comparison.marginalised_systems[number].outliers)),
         noise_(a.system.noise_dof, marginalised_.kept.size()),
         basis_(own_, marginalised_, numbers_below(family().kernels.size())) {
-    own_.g = {};
-    own_.regressors.clear();
     RegressorSet all;
     for (const RegressorSet& set : sets) {
       RegressorSet& own = sets_.emplace_back();

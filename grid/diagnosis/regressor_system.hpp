@@ -200,16 +200,8 @@ struct CausePrior {
   double odds_given_discrepancy = kCauseOddsGivenDiscrepancy;
 };
 
-/// A linearised system with its regressors and priors.
-struct RegressorSystem : estimation::LinearisedSystem {
-  RegressorColumns g;  ///< n x a column a regressor
-  std::vector<Regressor> regressors;
-  const Regressor& regressor(Index k) const { return regressors[as_size(k)]; }
-  RegressorSet regressors_of(const CauseId& cause) const {
-    auto all = numbers_below<int>(regressors.size());
-    std::erase_if(all, [&](int k) { return regressor(k).cause != cause; });
-    return all;
-  }
+/// A linearised system with its priors.
+struct PriorSystem : estimation::LinearisedSystem {
   /// Of a mechanism whose lengths are not those of two chains: a place for each unit, whose by_reading has
   /// the lengths' effect on its rows.
   bool is_of_lengths() const { return !places.empty() && !places.front().length_mm.empty(); }
@@ -225,6 +217,18 @@ struct RegressorSystem : estimation::LinearisedSystem {
   }
   OutlierLimits limits;
   const DiscrepancyFamily* discrepancies = &chain_discrepancies();
+};
+
+/// The same with its regressors, which take as much memory as all else together.
+struct RegressorSystem : PriorSystem {
+  RegressorColumns g;  ///< n x a column a regressor
+  std::vector<Regressor> regressors;
+  const Regressor& regressor(Index k) const { return regressors[as_size(k)]; }
+  RegressorSet regressors_of(const CauseId& cause) const {
+    auto all = numbers_below<int>(regressors.size());
+    std::erase_if(all, [&](int k) { return regressor(k).cause != cause; });
+    return all;
+  }
 };
 
 /// A flag for each outlier group, all false.
