@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/outlier_search.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/failed.hpp"
 #include "grid/statistics.hpp"
 

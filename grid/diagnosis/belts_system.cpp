@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 
 #include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/belts_analysis.hpp"
+#include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/belt_effects.hpp"
 

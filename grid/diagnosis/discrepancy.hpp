@@ -25,8 +25,8 @@
 #include <span>
 #include <vector>
 
-#include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
+#include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 #include "interp/eigen.hpp"
 

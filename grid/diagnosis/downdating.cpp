@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "grid/diagnosis/ties.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"

@@ -6,7 +6,6 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/other_places.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
 #include "model/effects/catalogue.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/other_places.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
-#include "grid/diagnosis/ties.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"

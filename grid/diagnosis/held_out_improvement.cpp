@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/other_places.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/parallel.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/law_evidence.hpp"
+#include "grid/diagnosis/laws.hpp"
 
 #include <algorithm>
 #include <cmath>

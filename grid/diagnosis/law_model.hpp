@@ -18,7 +18,7 @@
 
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
-#include "grid/diagnosis/law_evidence.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "grid/diagnosis/ties.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

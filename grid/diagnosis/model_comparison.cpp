@@ -6,8 +6,8 @@
 #include <deque>
 
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/diagnosis/outlier_search.hpp"
-#include "grid/diagnosis/set_search.hpp"
+#include "grid/diagnosis/model_collector.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/law_model.hpp"
-#include "grid/diagnosis/other_places.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 #include "interp/eigen.hpp"

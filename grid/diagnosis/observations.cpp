@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/observations.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 #include <fmt/format.h>
 

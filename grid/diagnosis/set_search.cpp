@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/set_search.hpp"
+#include "grid/diagnosis/model_collector.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "grid/diagnosis/ties.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
