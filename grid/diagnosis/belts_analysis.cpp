@@ -103,7 +103,7 @@ tl::expected<void, DiagnosisFailure> BeltRules::linearise(Analysis& a) const {
 }
 
 ComparisonOptions BeltRules::compared(const Analysis& a, bool last) const {
-  ComparisonOptions options{.given_cause = a.options.given_cause};
+  ComparisonOptions options;
   options.search = kSearch;
   // Before the last round, every second strength with the best set of outliers is enough.
   options.search.sets_given = last ? 2 : 1;

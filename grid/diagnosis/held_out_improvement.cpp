@@ -94,8 +94,7 @@ DecidedWithout decided_without(const Analysis& a, const Downdating& downdating,
   DecidedWithout result{downdating.without(units), {}};
   Flags excluded(a.session.units.size(), false);
   for (const std::size_t u : units) excluded[u] = true;
-  const bool detected =
-      a.options.given_cause.has_value() || a.null.p_value(result.models.score) < kFalseAlarm;
+  const bool detected = a.null.p_value(result.models.score) < kFalseAlarm;
   result.decision =
       decide(a.system, result.models.comparison, excluded, detected, a.decision.classes);
   return result;

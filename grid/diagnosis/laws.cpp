@@ -193,7 +193,6 @@ double probability_of_any(const std::vector<LawEvidence>& evidence) {
 
 LawsFound laws_found(const Analysis& a) {
   LawsFound found;
-  if (a.options.given_cause) return found;
   std::vector<LawCurve> curves = law_curves(a.system);
   // Coordinates on several sheets have different frames; chains share one.
   if (a.session.sheets > 1) {

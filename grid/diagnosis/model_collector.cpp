@@ -46,13 +46,12 @@ double score_alone(const Regressor& regressor, double c, double square) {
   return regressor.fixed ? 2.0 * c - square : c * c / square;
 }
 
-ModelCollector::ModelCollector(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised, std::size_t number,
-                               const ComparisonOptions& options)
+ModelCollector::ModelCollector(const RegressorSystem& system, MarginalisedSystem& marginalised,
+                               std::size_t number, const SearchLimits& limits)
     : system_(system),
       marginalised_(marginalised),
       number_(number),
-      options_(options),
+      limits_(limits),
       noise_(system.noise_dof, marginalised.kept.size()),
       best_(kMinusInfinity) {}
 
@@ -93,14 +92,6 @@ ColumnSet with_column(ColumnSet set, Index column) {
   return set;
 }
 
-GrowingSets::GrowingSets(const RegressorSystem& system, const NormalEquations& equations,
-                         int discrepancy, const SearchLimits& limits, ModelCollector& collector)
-    : system_(system),
-      equations_(equations),
-      discrepancy_(discrepancy),
-      limits_(limits),
-      collector_(collector) {}
-
 void GrowingSets::weigh(const ColumnSet& set) {
   if (known_.insert(set).second)
     weighed_[set.size()].push_back({collector_.consider(set, discrepancy_, equations_), set});
@@ -108,7 +99,7 @@ void GrowingSets::weigh(const ColumnSet& set) {
 
 bool GrowingSets::fits(const ColumnSet& set, Index column) const {
   return all_of(
-      set, [&](Index other) { return compatible(regressor(column), regressor(other), limits_); });
+      set, [&](Index other) { return compatible(regressor(column), regressor(other), collector_.limits()); });
 }
 
 void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
@@ -128,13 +119,12 @@ void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
   }
 }
 
-void search_by_beam(const RegressorSystem& system, const NormalEquations& equations,
-                    int discrepancy, const SearchLimits& limits, ModelCollector& collector) {
+void search_by_beam(const NormalEquations& equations, int discrepancy, ModelCollector& collector) {
   // Number of sets of none, one, two and three causes that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
-  const GrowingSets sets(system, equations, discrepancy, limits, collector);
+  const GrowingSets sets(equations, discrepancy, collector);
   collector.consider({}, discrepancy, equations);
-  const EvidenceBounds bounds(equations, system.regressors, collector.noise());
+  const EvidenceBounds bounds(equations, collector.system().regressors, collector.noise());
   std::vector<WeighedSet> parents = {{0.0, {}}};
   for (std::size_t size = 1; size <= kMostCauses; ++size) {
     const std::size_t extended = size < kMostCauses ? kExtended.at(size) : 0;

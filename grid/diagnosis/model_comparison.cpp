@@ -28,7 +28,6 @@ std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system, const 
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   std::vector<RegressorSet> hypotheses = {{}};
   for (const CauseScore& own : single_scores(system, marginalised, marginalised.e)) {
-    if (options.given_cause && own.cause != *options.given_cause) continue;
     if (own.best_regressor >= 0) hypotheses.push_back({own.best_regressor});
   }
   append_all(hypotheses, options.hypotheses);
@@ -175,7 +174,7 @@ class Comparer {
       auto& systems = comparison_.marginalised_systems;
       if (systems.size() == kMostOutlierSets) break;
       systems.push_back(marginalise(system_, outliers));
-      searches.emplace_back(system_, systems.back(), systems.size() - 1, options_);
+      searches.emplace_back(system_, systems.back(), systems.size() - 1, options_.search);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
     }

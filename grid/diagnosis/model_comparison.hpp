@@ -70,8 +70,6 @@ struct ComparisonOptions {
   bool discrepancies = true;
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   Indices kernels{};
-  /// If set, only this cause may act.
-  std::optional<CauseId> given_cause{};
   SearchLimits search{};
   /// Further sets of regressors that search for outliers, besides nothing and each cause alone.
   std::vector<RegressorSet> hypotheses{};

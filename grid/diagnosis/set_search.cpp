@@ -40,8 +40,7 @@ void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& 
 /// The best of each cause's places, after projection on the settings and also after projection on a
 /// leading cause.
 RegressorSet best_of_each_cause(const RegressorSystem& system,
-                                const MarginalisedSystem& marginalised,
-                                const ComparisonOptions& options, std::size_t of_a_cause) {
+                                const MarginalisedSystem& marginalised, std::size_t of_a_cause) {
   std::set<int> chosen;
   const MatrixXd all =
       reduced(marginalised, system.g.dense(numbers_below<int>(system.regressors.size())));
@@ -65,10 +64,6 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
     for (const Index column : each_below(g.cols())) g.col(column) -= along[column] * own;
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
-  std::erase_if(chosen, [&](int k) {
-    const CauseId& cause = system.regressor(k).cause;
-    return options.given_cause && cause != *options.given_cause;
-  });
   return {chosen.begin(), chosen.end()};
 }
 
@@ -80,29 +75,21 @@ bool at_a_visit(const Regressor& d) {
 
 }  // namespace
 
-SetSearch::SetSearch(const RegressorSystem& system, MarginalisedSystem& marginalised,
-                     std::size_t number, const ComparisonOptions& options)
-    : system_(system),
-      marginalised_(marginalised),
-      options_(options),
-      collector_(system, marginalised, number, options),
-      sets_(system, equations_, -1, options.search, collector_) {}
-
 std::vector<CandidateModel> SetSearch::run() {
-  const std::size_t few = options_.search.of_a_cause;
+  const RegressorSystem& system = collector_.system();
+  const MarginalisedSystem& marginalised = collector_.marginalised();
+  const std::size_t few = collector_.limits().of_a_cause;
   equations_ = normal_equations(
-      system_, marginalised_,
-      few == 0 ? columns() : best_of_each_cause(system_, marginalised_, options_, few));
+      system, marginalised,
+      few == 0 ? columns() : best_of_each_cause(system, marginalised, few));
   if (few > 0) {
-    search_by_beam(system_, equations_, -1, options_.search, collector_);
+    search_by_beam(equations_, -1, collector_);
     return collector_.take();
   }
   sets_.weigh({});
   for (const Index k : each_below(equations_.ge.size())) sets_.weigh({k});
-  if (!options_.given_cause) {
-    pairs();
-    sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
-  }
+  pairs();
+  sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
   return collector_.take();
 }
 
@@ -120,25 +107,25 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& ke
     RegressorSet& regressors = likeliest.emplace_back();
     for (const Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
   }
-  kernel_weight = search_given_discrepancies(system_, marginalised_, options_, equations_,
-                                             likeliest, kernels, collector_);
+  kernel_weight = search_given_discrepancies(equations_, likeliest, kernels, collector_);
   return collector_.take();
 }
 
 RegressorSet SetSearch::columns() const {
+  const RegressorSystem& system = collector_.system();
+  const MarginalisedSystem& marginalised = collector_.marginalised();
   RegressorSet kept;
   RegressorSet fixed;
   RegressorSet shifts;
-  const auto count = as_int(system_.regressors.size());
-  const VectorXd c = with_regressors(system_, marginalised_, marginalised_.e);
-  const VectorXd square = squared_lengths(system_, marginalised_);
+  const auto count = as_int(system.regressors.size());
+  const VectorXd c = with_regressors(system, marginalised, marginalised.e);
+  const VectorXd square = squared_lengths(system, marginalised);
   for (int k = 0; k < count; ++k) {
-    const Regressor& d = system_.regressor(k);
-    if (options_.given_cause && d.cause != *options_.given_cause) continue;
+    const Regressor& d = system.regressor(k);
     if (!(square(k) > kLeastSquare)) continue;
     (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
   }
-  const auto explained = [&](int k) { return score_alone(system_.regressor(k), c(k), square(k)); };
+  const auto explained = [&](int k) { return score_alone(system.regressor(k), c(k), square(k)); };
   keep_best(shifts, kKeptShifts, explained);
   RegressorSet likeliest = kept;
   append_all(kept, shifts);
@@ -148,7 +135,7 @@ RegressorSet SetSearch::columns() const {
   }
   keep_best(likeliest, 8, explained);
   const MatrixXd cross =
-      with_regressors(system_, marginalised_, reduced(marginalised_, system_.g.dense(likeliest)));
+      with_regressors(system, marginalised, reduced(marginalised, system.g.dense(likeliest)));
   std::vector<std::pair<double, int>> gains;
   for (const int k : fixed) {
     double best = explained(k);
@@ -202,8 +189,9 @@ double SetSearch::quick_weight(Index i, Index j) const {
     q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
     occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
   }
-  const auto n = as_double(marginalised_.kept.size());
-  return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
+  const double dof = collector_.system().noise_dof;
+  const auto n = as_double(collector_.marginalised().kept.size());
+  return -0.5 * (n + dof) * std::log(dof + std::max(q, 0.0)) - occam +
          a.log_prior + b.log_prior;
 }
 
@@ -213,7 +201,7 @@ void SetSearch::pairs() {
   double best = kMinusInfinity;
   for (const Index i : each_below(count)) {
     for (const Index j : each_below(i)) {
-      if (!compatible(sets_.regressor(i), sets_.regressor(j), options_.search)) continue;
+      if (!compatible(sets_.regressor(i), sets_.regressor(j), collector_.limits())) continue;
       const double weight = quick_weight(i, j);
       if (weight < best - kPairsWithin) continue;
       best = std::max(best, weight);

@@ -313,7 +313,7 @@ bool may_be_refused(const Analysis& a) {
 
 std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stability>& stability,
                                                       Analysis& a) {
-  if (!stability || a.options.given_cause || !may_be_refused(a)) return std::nullopt;
+  if (!stability || !may_be_refused(a)) return std::nullopt;
   const Removal* reading = made_by(*stability);
   if (reading == nullptr) return std::nullopt;
   const auto number = as_size(reading - stability->removals.data());
@@ -323,8 +323,7 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   Flags excluded(a.session.units.size(), false);
   excluded[unit] = true;
   a.comparison =
-      compare_models(a.system, excluded,
-                     {.kernels = best_kernels(a.comparison), .given_cause = a.options.given_cause});
+      compare_models(a.system, excluded, {.kernels = best_kernels(a.comparison)});
   decide_by(calibrated_rules(), false, a);
   return refusal_words(a.session, *reading, unit, cause, leader.probability);
 }
