@@ -154,8 +154,7 @@ interp::Rectangle marked_area(const ObservationSet& session);
 
 /// Unread chains at these places, in their order and without an order of visits, in the frame and with the noise
 /// of a part that reads chains.
-FollowUp readings_at(const ObservationSet& session, std::size_t part,
-                     std::vector<observation::Place> places);
+FollowUp readings_at(const ObservationSet& session, std::size_t part, std::vector<Place> places);
 
 /// A session with a point at each reachable mark, without an order of visits. Precondition: as
 /// above.

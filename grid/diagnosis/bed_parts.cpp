@@ -17,7 +17,6 @@
 #include "grid/plane_vectors.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -52,8 +51,7 @@ std::vector<UnitPlace> places_of_units(const RegressorSystem& system) {
     const auto& places = system.units[u].places;
     if (places.empty()) continue;
     Vector2d sum = Vector2d::Zero();
-    for (const observation::PlaceColumns& own : places)
-      sum += vector_of(system.places[own.place].mark);
+    for (const PlaceColumns& own : places) sum += vector_of(system.places[own.place].mark);
     result.push_back({u, sum / as_double(places.size())});
   }
   return result;
@@ -271,8 +269,7 @@ std::string words_of_quarters(const Diagnosis& d) {
   for (const PartFinding& part : d.bed_parts) {
     if (!denies(d, part)) continue;
     const auto own = answer_without(part);
-    auto* same =
-        find_where(answers, [&](const OtherAnswer& other) { return other.words == own.first; });
+    auto* same = find_where(answers, having(&OtherAnswer::words, own.first));
     OtherAnswer& answer = same != nullptr ? *same : answers.emplace_back(OtherAnswer{own.first});
     answer.least = std::min(answer.least, own.second);
     answer.most = std::max(answer.most, own.second);

@@ -8,7 +8,6 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -302,9 +302,7 @@ bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
 }  // namespace
 
 std::vector<CauseId> Decision::leaders() const {
-  std::vector<CauseId> causes;
-  for (const std::size_t index : listed) causes.push_back(classes[index].front());
-  return causes;
+  return mapped(listed, [&](std::size_t index) { return classes[index].front(); });
 }
 
 std::size_t Decision::class_of(const CauseId& cause) const {
@@ -314,8 +312,7 @@ std::size_t Decision::class_of(const CauseId& cause) const {
 }
 
 double Decision::probability_of(std::size_t index) const {
-  const auto* one =
-      find_where(marginal, [&](const ClassProbability& own) { return own.index == index; });
+  const auto* one = find_where(marginal, having(&ClassProbability::index, index));
   return one != nullptr ? one->probability : 0.0;
 }
 

@@ -19,7 +19,7 @@ struct Scouted {
   int discrepancy = 0;
   double weight = kMinusInfinity;
   /// Regressors worth trying in it, with the weight of each alone, best first.
-  std::vector<std::pair<double, int>> singles;
+  ScoredRegressors singles;
 };
 
 /// With the regressors of more sets, ascending.
@@ -46,7 +46,7 @@ class Scout {
     const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
     Scouted result{
         discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
-    std::vector<std::pair<double, int>> all;
+    ScoredRegressors all;
     for (const auto k : each_index(plain_.columns)) {
       all.emplace_back(prior_[k] + share + single(d, as_index(k)), plain_.columns[k]);
     }
@@ -82,7 +82,8 @@ class Scout {
 
   double together(const NormalEquations& equations, int discrepancy,
                   const RegressorSet& set) const {
-    return set_evidence(equations, collector_.system().regressors, equations.positions(set), collector_.noise())
+    return set_evidence(equations, collector_.system().regressors, equations.positions(set),
+                        collector_.noise())
                .log_evidence +
            collector_.log_prior_of(set, discrepancy);
   }
@@ -105,9 +106,6 @@ void search_given(const NormalEquations& equations, int discrepancy, const Regre
   sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true},
             [&](const ColumnSet&) { return alone; });
 }
-
-/// Regressors with a score, best first.
-using ScoredRegressors = std::vector<std::pair<double, int>>;
 
 /// The first `most` of each cause, and those that tie with the last of these.
 RegressorSet first_of_each_cause(const RegressorSystem& system, const ScoredRegressors& sorted,
@@ -166,7 +164,8 @@ std::vector<double> search_all_by_beam(DiscrepancyBasis& basis, const NormalEqua
     const DiscrepancyBasis::GivenKernel given = basis.given(kernel, plain);
     for (std::size_t s = step - 1; s < strengths; s += step) {
       const auto discrepancy = as_int(kernel * strengths + s);
-      search_by_beam(given.equations(family.strength_of(discrepancy), plain.columns), discrepancy, collector);
+      search_by_beam(given.equations(family.strength_of(discrepancy), plain.columns), discrepancy,
+                     collector);
     }
   }
   // All are tried with every set of outliers.
@@ -205,11 +204,9 @@ std::vector<double> search_given_discrepancies(const NormalEquations& plain,
     const std::size_t kernel = family.kernel_of(discrepancy);
     if (!all_columns.contains(kernel)) all_columns.emplace(kernel, basis.given(kernel, plain));
     const DiscrepancyBasis::GivenKernel& given = all_columns.at(kernel);
-    const RegressorSet singles =
-        worth_trying(system, closer_look.look_at(given, discrepancy));
-    search_given(
-        given.equations(family.strength_of(discrepancy), with_sets(singles, best_models)),
-        discrepancy, singles, best_models, collector);
+    const RegressorSet singles = worth_trying(system, closer_look.look_at(given, discrepancy));
+    search_given(given.equations(family.strength_of(discrepancy), with_sets(singles, best_models)),
+                 discrepancy, singles, best_models, collector);
   }
   return of_kernel;
 }

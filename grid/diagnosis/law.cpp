@@ -101,6 +101,11 @@ std::optional<Belt> belt_of(Enters enters) {
   return static_cast<Belt>(as_int(enters) - as_int(Enters::tl));
 }
 
+std::optional<Side> chain_of(Enters enters) {
+  if (enters > Enters::right) return std::nullopt;
+  return enters == Enters::left ? Side::left : Side::right;
+}
+
 std::string_view name(LawShape shape) { return described_shape(shape).name; }
 
 bool is_periodic(LawShape shape) { return shape >= LawShape::wave; }

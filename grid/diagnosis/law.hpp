@@ -74,8 +74,9 @@ double value_at(const estimation::SystemPlace& place, Coordinate of, double acro
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 std::string_view name(Enters enters);
 
-/// For a law that enters a belt; null for all others.
+/// For a law that enters a belt or one chain; null for all others.
 std::optional<Belt> belt_of(Enters enters);
+std::optional<Side> chain_of(Enters enters);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
 std::string_view name(LawShape shape);

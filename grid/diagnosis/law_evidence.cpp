@@ -171,8 +171,7 @@ class LawSearch {
   std::vector<LawContext> contexts_with(const std::vector<LawPoint>& chosen) {
     std::vector<LawPoint> best;
     for (const LawPoint& own : chosen) {
-      const bool known =
-          any_of(best, [&](const LawPoint& other) { return other.curve == own.curve; });
+      const bool known = any_of(best, having(&LawPoint::curve, own.curve));
       if (!known && best.size() < 3) best.push_back(own);
     }
     MatrixXd weights = system_.log_weights(contexts_, system_.take(best));

@@ -7,12 +7,17 @@
 #include <map>
 #include <utility>
 
-#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 namespace {
+
+/// The set with one more column.
+ColumnSet with_column(ColumnSet set, Index column) {
+  set.insert(std::lower_bound(set.begin(), set.end(), column), column);
+  return set;
+}
 
 /// It acts from one visit on.
 bool sets_in_at_a_visit(const Regressor& r) {
@@ -23,10 +28,7 @@ bool sets_in_at_a_visit(const Regressor& r) {
 }  // namespace
 
 bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits) {
-  const auto sets_in = [](const Regressor& r) {
-    return r.cause.effect->parameters.size() > 1 && r.cause.effect->parameters.back().integer;
-  };
-  if (limits.one_event_visits > 0.0 && sets_in(a) && sets_in(b) &&
+  if (limits.one_event_visits > 0.0 && a.sets_in() && b.sets_in() &&
       std::abs(a.values.back() - b.values.back()) <= limits.one_event_visits) {
     return false;
   }
@@ -87,19 +89,15 @@ double ModelCollector::log_prior_of(const RegressorSet& regressors, int discrepa
   return value;
 }
 
-ColumnSet with_column(ColumnSet set, Index column) {
-  set.insert(std::lower_bound(set.begin(), set.end(), column), column);
-  return set;
-}
-
 void GrowingSets::weigh(const ColumnSet& set) {
   if (known_.insert(set).second)
     weighed_[set.size()].push_back({collector_.consider(set, discrepancy_, equations_), set});
 }
 
 bool GrowingSets::fits(const ColumnSet& set, Index column) const {
-  return all_of(
-      set, [&](Index other) { return compatible(regressor(column), regressor(other), collector_.limits()); });
+  return all_of(set, [&](Index other) {
+    return compatible(regressor(column), regressor(other), collector_.limits());
+  });
 }
 
 void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,

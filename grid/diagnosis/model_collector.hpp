@@ -83,8 +83,6 @@ class GrowingSets {
   std::set<ColumnSet> known_;
   std::array<std::vector<WeighedSet>, kMostCauses + 1> weighed_;
 };
-/// The set with one more column.
-[[nodiscard]] ColumnSet with_column(ColumnSet set, Index column);
 
 /// Sets of up to kMostCauses columns grown from nothing by a beam search, given one discrepancy or
 /// none; all go to the collector.

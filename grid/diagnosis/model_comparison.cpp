@@ -50,9 +50,7 @@ double ModelComparison::probability(const CandidateModel& model) const {
 
 void sort_by_weight(ModelComparison& comparison) {
   stable_sort(comparison.models, descending(&CandidateModel::log_weight));
-  std::vector<double> weights;
-  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
-  comparison.log_total = log_sum(weights);
+  comparison.log_total = log_sum(mapped(comparison.models, &CandidateModel::log_weight));
 }
 
 double log_prior(const RegressorSystem& system, const RegressorSet& set, bool discrepancy) {
@@ -74,10 +72,10 @@ double log_prior(const RegressorSystem& system, const RegressorSet& set, bool di
 
 double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set,
                            bool discrepancy) {
-  const auto lasting = as_size(std::count_if(set.begin(), set.end(), [&](int k) {
+  const auto lasting = count_where(set, [&](int k) {
     const Regressor& d = system.regressor(k);
     return !d.expected && !d.slip;
-  }));
+  });
   if (lasting == kMostCauses) return kMinusInfinity;
   const double odds = discrepancy ? system.prior.odds_given_discrepancy : 1.0;
   return std::log(prior_of_count(lasting + 1, odds) / prior_of_count(lasting, odds)) +
@@ -145,8 +143,8 @@ std::vector<Flags> sets_without_links(const RegressorSystem& system, const Flags
     if (!links) continue;
     Flags without = marginalised.outliers;
     without[i] = false;
-    const bool known = any_of(comparison.marginalised_systems,
-                              [&](const MarginalisedSystem& s) { return s.outliers == without; });
+    const bool known =
+        any_of(comparison.marginalised_systems, having(&MarginalisedSystem::outliers, without));
     if (!known) result.push_back(std::move(without));
   }
   return result;

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -135,6 +134,8 @@ void keep_best(List& list, std::size_t most, const Score& score) {
     ++count;
   list.resize(count);
 }
+/// Regressors with a score.
+using ScoredRegressors = std::vector<std::pair<double, int>>;
 /// By the first of each pair.
 template <typename Other>
 void keep_best(std::vector<std::pair<double, Other>>& scored, std::size_t most) {

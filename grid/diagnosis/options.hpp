@@ -5,7 +5,6 @@
 
 #include <compare>
 #include <cstdint>
-#include <optional>
 
 #include "grid/progress.hpp"
 #include "model/failure.hpp"

@@ -13,8 +13,7 @@ namespace {
 
 /// The first part with chain readings at marks.
 std::size_t chain_part(const ObservationSet& session) {
-  const auto* found =
-      find_where(session.parts, [](const auto& part) { return part.reads_chains(); });
+  const auto* found = find_where(session.parts, &ObservationPart::reads_chains);
   return as_size(found - session.parts.data());
 }
 
@@ -24,24 +23,21 @@ interp::Rectangle marked_area(const ObservationSet& session) {
   const auto& places = session.parts[chain_part(session)].observation->places();
   const MarkPoint first = places.front().mark;
   interp::Rectangle area{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
-  for (const observation::Place& place : places) take_in(area, place.mark);
+  for (const Place& place : places) take_in(area, place.mark);
   return area;
 }
 
-FollowUp readings_at(const ObservationSet& session, std::size_t part,
-                     std::vector<observation::Place> places) {
-  const auto& own =
-      dynamic_cast<const observation::ChainLengthReadings&>(*session.parts[part].observation);
-  return {std::make_shared<const observation::ChainLengthReadings>(
-              observation::ChainLengthReadings::in_given_order(
-                  std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
+FollowUp readings_at(const ObservationSet& session, std::size_t part, std::vector<Place> places) {
+  const auto& own = dynamic_cast<const ChainLengthReadings&>(*session.parts[part].observation);
+  return {std::make_shared<const ChainLengthReadings>(ChainLengthReadings::in_given_order(
+              std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
           part};
 }
 
 ObservationSet session_at(const Analysis& a, const std::vector<MarkPoint>& marks) {
   const std::size_t part = chain_part(a.session);
   const observation::View view = a.state.view(a.session.parts[part]);
-  std::vector<observation::Place> places;
+  std::vector<Place> places;
   for (const MarkPoint& mark : marks) {
     if (view.chains().at(view.sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
   }
@@ -68,13 +64,7 @@ ExpectedRows expected_rows(const Analysis& a, const Estimate& fitted, const Regr
 }
 
 VectorXd pattern_at(const Analysis& a, const Estimate& fitted, const RegressorSystem& there) {
-  VectorXd rows = VectorXd::Zero(there.e.size());
-  for (const SystemUnit& unit : there.units) {
-    const SystemPlace& place = there.places[unit.places.front().place];
-    rows.segment<2>(unit.first_row) =
-        unit.whitening * discrepancy_at(a.system, marginalised_system(a), fitted, place);
-  }
-  return rows;
+  return discrepancy_in(there, KeptRows::all(there), a.system, marginalised_system(a), fitted);
 }
 
 namespace {
@@ -139,7 +129,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   MeasuredGrid other = to;
   other.machine = from.machine;
   if (!other.noise) {
-    const auto& own = *parts_of<observation::ChainLengthReadings>(*first).front().second;
+    const auto& own = *parts_of<ChainLengthReadings>(*first).front().second;
     other.noise = StatedNoise{own.noise().length_mm, own.noise().position_mm, own.noise_dof()};
   }
   other.readings.clear();

@@ -283,7 +283,7 @@ std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excl
   for (const auto& set : hypotheses) {
     FoundSet one = search(under(nothing, marginalised, system, set), system, marginalised, free,
                           beforehand, log_prior(system, set, false));
-    auto* same = find_where(found, [&](const FoundSet& f) { return f.outliers == one.outliers; });
+    auto* same = find_where(found, having(&FoundSet::outliers, one.outliers));
     if (same == nullptr) {
       found.push_back(std::move(one));
     } else {

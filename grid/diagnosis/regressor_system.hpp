@@ -38,6 +38,10 @@ using estimation::NumberedPlace;
 using estimation::NumberedUnit;
 using estimation::ObservationPart;
 using estimation::ObservationSet;
+using observation::ChainLengthReadings;
+using observation::Place;
+using observation::PlaceColumns;
+using observation::TapeDistances;
 using State = estimation::MachineState;
 
 /// With fewer points no residual remains after fitting the settings.
@@ -190,6 +194,12 @@ struct Regressor : SizedCause {
   double visits = 0.0;
   /// Share of this side, place and whole number within the effect (whole numbers: analysis.cpp).
   double log_prior = 0.0;
+
+  /// It sets in at one of the visits.
+  bool sets_in() const {
+    const auto& parameters = cause.effect->parameters;
+    return parameters.size() > 1 && parameters.back().integer;
+  }
 };
 
 /// Readings that one slip spoils together, as a direction of one or two consecutive rows. Groups of

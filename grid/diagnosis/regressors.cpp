@@ -21,7 +21,7 @@ std::vector<const Effect*> effects_of(const State& state) {
 
 /// The state with one more effect. \pre problems_with_effect() has none.
 State with_effect(State state, CauseId cause, const std::vector<double>& values) {
-  const AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  const AppliedEffect own = applied(*cause.effect, cause.side, values);
   if (state.mechanism) {
     state.mechanism = state.mechanism->with_effects({own});
   } else {
@@ -32,7 +32,7 @@ State with_effect(State state, CauseId cause, const std::vector<double>& values)
 
 std::vector<model::MachineProblem> problems_with_effect(const State& state, CauseId cause,
                                                         const std::vector<double>& values) {
-  const AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  const AppliedEffect own = applied(*cause.effect, cause.side, values);
   if (state.mechanism) return state.mechanism->problems_of_effects({own});
   Machine machine = state.machine;
   machine.effects.push_back(own);
@@ -71,13 +71,12 @@ Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, Cau
 /// are unchanged.
 VectorXd added(const RegressorSystem& system, const model::Sprocket& sprocket, CauseId cause,
                const std::vector<double>& values) {
-  std::vector<Vector2d> mm;
-  for (const SystemPlace& place : system.places) {
-    mm.push_back(added_at(place, sprocket, cause, values));
-  }
+  const auto mm = mapped(system.places, [&](const SystemPlace& place) {
+    return added_at(place, sprocket, cause, values);
+  });
   VectorXd column = VectorXd::Zero(system.e.size());
   for (const SystemUnit& unit : system.units) {
-    for (const observation::PlaceColumns& place_columns : unit.places) {
+    for (const PlaceColumns& place_columns : unit.places) {
       column.segment(unit.first_row, unit.rows) += place_columns.by_chain * mm[place_columns.place];
     }
   }
@@ -115,7 +114,7 @@ class Builder {
       : system_(system), signatures_{session, state, system} {}
 
   void add(CauseId cause, const std::vector<SizedCause>& known) {
-    std::vector<double> values = model::effects::nominal_values(*cause.effect);
+    std::vector<double> values = nominal_values(*cause.effect);
     refined_ = false;
     for (const SizedCause& r : known) {
       if (r.cause != cause) continue;
@@ -221,8 +220,7 @@ Candidates candidates(const ObservationSet& session) {
   for (const Effect* effect : effects_of(stated)) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{effect, side};
-      const auto problems =
-          problems_with_effect(stated, cause, model::effects::nominal_values(*effect));
+      const auto problems = problems_with_effect(stated, cause, nominal_values(*effect));
       const std::string reason = untestable(session, cause);
       if (!reason.empty()) {
         result.not_testable.push_back({cause, reason});

@@ -5,7 +5,6 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -20,9 +20,9 @@ void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& 
               std::size_t of_a_cause, std::set<int>& chosen) {
   const VectorXd c = linear::inner(g, e);
   const VectorXd square = g.colwise().squaredNorm();
-  std::vector<std::pair<double, int>> scores;
+  ScoredRegressors scores;
   const auto take = [&] {
-    stable_sort(scores, descending(&std::pair<double, int>::first));
+    stable_sort(scores, descending(&ScoredRegressors::value_type::first));
     if (scores.size() > of_a_cause) scores.resize(of_a_cause);
     for (const auto& [score, k] : scores) chosen.insert(k);
     scores.clear();
@@ -45,7 +45,7 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
   const MatrixXd all =
       reduced(marginalised, system.g.dense(numbers_below<int>(system.regressors.size())));
   add_best(system, all, marginalised.e, of_a_cause, chosen);
-  std::vector<std::pair<double, int>> likeliest;
+  ScoredRegressors likeliest;
   for (const int k : chosen) {
     if (system.regressor(k).fixed) continue;
     const auto g = all.col(k);
@@ -67,12 +67,6 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
   return {chosen.begin(), chosen.end()};
 }
 
-/// Effects of any size that set in at a visit.
-bool at_a_visit(const Regressor& d) {
-  const auto& parameters = d.cause.effect->parameters;
-  return !d.fixed && parameters.size() > 1 && parameters.back().integer;
-}
-
 }  // namespace
 
 std::vector<CandidateModel> SetSearch::run() {
@@ -80,8 +74,7 @@ std::vector<CandidateModel> SetSearch::run() {
   const MarginalisedSystem& marginalised = collector_.marginalised();
   const std::size_t few = collector_.limits().of_a_cause;
   equations_ = normal_equations(
-      system, marginalised,
-      few == 0 ? columns() : best_of_each_cause(system, marginalised, few));
+      system, marginalised, few == 0 ? columns() : best_of_each_cause(system, marginalised, few));
   if (few > 0) {
     search_by_beam(equations_, -1, collector_);
     return collector_.take();
@@ -123,7 +116,8 @@ RegressorSet SetSearch::columns() const {
   for (int k = 0; k < count; ++k) {
     const Regressor& d = system.regressor(k);
     if (!(square(k) > kLeastSquare)) continue;
-    (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
+    // Shifts of any size set in at a visit.
+    (d.fixed ? fixed : d.sets_in() ? shifts : kept).push_back(k);
   }
   const auto explained = [&](int k) { return score_alone(system.regressor(k), c(k), square(k)); };
   keep_best(shifts, kKeptShifts, explained);
@@ -136,7 +130,7 @@ RegressorSet SetSearch::columns() const {
   keep_best(likeliest, 8, explained);
   const MatrixXd cross =
       with_regressors(system, marginalised, reduced(marginalised, system.g.dense(likeliest)));
-  std::vector<std::pair<double, int>> gains;
+  ScoredRegressors gains;
   for (const int k : fixed) {
     double best = explained(k);
     for (const auto l : each_index(likeliest)) {
@@ -191,8 +185,7 @@ double SetSearch::quick_weight(Index i, Index j) const {
   }
   const double dof = collector_.system().noise_dof;
   const auto n = as_double(collector_.marginalised().kept.size());
-  return -0.5 * (n + dof) * std::log(dof + std::max(q, 0.0)) - occam +
-         a.log_prior + b.log_prior;
+  return -0.5 * (n + dof) * std::log(dof + std::max(q, 0.0)) - occam + a.log_prior + b.log_prior;
 }
 
 void SetSearch::pairs() {

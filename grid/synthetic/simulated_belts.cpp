@@ -37,9 +37,9 @@ std::vector<BedPoint> commands_of(const BeltMachine& stated, const BeltsSpec& sp
 /// The tool's position when the upper belts have the lengths paid out for a command.
 tl::expected<FramePoint, model::BeltFailure> place_of(const BeltMachine& stated,
                                                       const BeltMachine& truth, BedPoint command) {
-  const auto paid_out = model::lengths_at(stated, model::to_frame(stated, command));
+  const auto paid_out = lengths_at(stated, to_frame(stated, command));
   if (!paid_out) return failed(paid_out);
-  return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
+  return place_of_upper(truth, paid_out->tl, paid_out->tr);
 }
 
 std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {
