@@ -191,7 +191,7 @@ std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
   sort(heights);
   const double arms_mm =
       belts.machine.lengths == model::BeltLengths::belt ? 2.0 * reach_mm(belts.machine) : 0.0;
-  for (std::size_t least = 0; least < std::min<std::size_t>(widths.size(), 2); ++least) {
+  for (const std::size_t least : each_below(std::min<std::size_t>(widths.size(), 2))) {
     for (const double share : {0.9, 0.75, 0.97}) {
       for (const double other : {share, 0.6}) {
         const double w = share * (widths[least] + arms_mm);

@@ -150,7 +150,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
     of_part[p] = downdating.probabilities_without(parts[p].units, CountAs::all);
   });
   std::map<ModelKey, double> weights;  // of models with a pattern
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (const auto p : each_index(parts)) {
     for (const auto k : each_index(models)) {
       if (models[k]->discrepancy >= 0) weights[key_of(*models[k])] += of_part[p][k];
     }
@@ -291,7 +291,7 @@ std::string words_of_quarters(const Diagnosis& d) {
 std::vector<std::string> words_of_sessions(const Diagnosis& d) {
   std::vector<std::string> result;
   if (d.sessions.empty()) return result;
-  for (std::size_t k = 0; k < d.sessions.front().named.size(); ++k) {
+  for (const auto k : each_index(d.sessions.front().named)) {
     std::vector<std::string> with, without;
     for (const PartFinding& session : d.sessions) {
       const Hypothesis& own = session.named[k];

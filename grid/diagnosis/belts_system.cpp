@@ -215,7 +215,7 @@ RegressorSystem system_of(const MeasuredBelts& belts, const FrameState& state,
   system.groups.clear();
   for (const auto u : each_index(system.units)) {
     SystemUnit& unit = system.units[u];
-    for (Index belt = 0; belt < 4; ++belt)
+    for (const Index belt : each_below(4))
       system.groups.push_back({unit.first_row, 2, Vector2d(unit.by_reading.col(belt))});
     unit.places.push_back({u, {}});
     system.places.push_back(place_of(belts, state, session.units[u].index));

@@ -115,17 +115,13 @@ class Decider {
   }
 
   void take(const Grouped& grouped) {
-    const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_discrepancy;
-    if (model == nullptr) return;
-    result_.regressors = model->regressors;
-    result_.marginalised = model->marginalised;
-    if (grouped.with_discrepancy != nullptr)
-      result_.best_discrepancy = grouped.with_discrepancy->discrepancy;
+    const CandidateModel* given = grouped.with_discrepancy;
     result_.discrepancy_left = grouped.discrepancy > 0.5 * grouped.probability;
-    if (result_.discrepancy_left) {
-      result_.regressors = grouped.with_discrepancy->regressors;
-      result_.marginalised = grouped.with_discrepancy->marginalised;
-    }
+    const CandidateModel& model =
+        result_.discrepancy_left || grouped.best == nullptr ? *given : *grouped.best;
+    result_.regressors = model.regressors;
+    result_.marginalised = model.marginalised;
+    if (given != nullptr) result_.best_discrepancy = given->discrepancy;
   }
 
   /// For several causes those more likely than not are reported; a partner that could be any of many

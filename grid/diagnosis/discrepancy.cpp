@@ -110,16 +110,10 @@ Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a
   for (const DiscrepancyField& field : kernel.fields) {
     Matrix2d covariance = Matrix2d::Identity();
     if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
-    if (field.of == Coordinate::border) {
-      for (Index i = 0; i < 2; ++i) {
-        for (Index j = 0; j < 2; ++j) {
-          covariance(i, j) *=
-              field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
-        }
-      }
-    } else {
-      covariance *=
-          field_covariance(field, field_argument(field, a, 0), field_argument(field, b, 0));
+    for (const Index i : each_below(covariance.rows())) {
+      for (const Index j : each_below(covariance.cols()))
+        covariance(i, j) *=
+            field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
     }
     sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
   }

@@ -192,7 +192,7 @@ std::vector<double> search_given_discrepancies(const NormalEquations& plain,
   basis.relate(few);
   for_each_index(kernels.size(), [&](std::size_t k) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernels[k], few);
-    for (int strength = 0; strength < strengths; ++strength) {
+    for (const int strength : each_below(strengths)) {
       Scouted& own = scouted[k * family.strengths.size() + as_size(strength)];
       own = first_look.look_at(given, as_int(kernels[k]) * strengths + strength);
       of_kernel[k] = std::max(of_kernel[k], own.weight);

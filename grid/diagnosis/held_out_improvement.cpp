@@ -264,7 +264,7 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
     all.agree += as_int(fold.agrees);
     append_all(all.units, fold.units);
     all.number.insert(all.number.end(), fold.units.size(), b);
-    for (std::size_t k = 0; k < all.errors.size(); ++k) {
+    for (const auto k : each_index(all.errors)) {
       append_all(all.errors[k].machine, fold.errors[k].machine);
       append_all(all.errors[k].and_surface, fold.errors[k].and_surface);
     }

@@ -141,7 +141,7 @@ class LawSearch {
   void refine(std::vector<LawPoint>& points) {
     const LawCurve& curve = *points.front().curve;
     if (!is_continuous(curve.shape) || points.size() < 2) return;
-    for (int pass = 0; pass < 2; ++pass) {
+    for (const int pass : each_below(2)) {
       // The second pass uses the neighbours from the first.
       const auto best = max_element(points, ascending(&LawPoint::log_weight)) - points.begin();
       std::vector<LawPoint> finer;

@@ -163,7 +163,7 @@ class HoleCandidates {
         {MeasurementKind::distance, "", "", identity_placement(place), measured_.tape.sigma_mm},
         {},
         1};
-    for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
+    for (const std::size_t k : each_below(std::min(kArms, others.size()))) {
       candidate.rows.push_back(std::ssize(set_.distances));
       set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);

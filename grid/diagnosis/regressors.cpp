@@ -50,13 +50,11 @@ std::optional<VectorXd> predicted(const ObservationSet& session, const State& st
   return all;
 }
 
-bool is_of_readings(CauseId cause) { return cause.effect->station == Station::reading; }
-
 /// What an effect adds to the chains at a place, or to the written readings there.
 Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, CauseId cause,
                   const std::vector<double>& values) {
   Vector2d mm = Vector2d::Zero();
-  if (is_of_readings(cause) && !place.ordered) return mm;
+  if (cause.effect->station == Station::reading && !place.ordered) return mm;
   const model::Pose& pose = place.state.reading.pose;
   for (const Side side : kSides) {
     if (!model::effects::acts_on(cause.side, side)) continue;
@@ -103,8 +101,6 @@ struct Signatures {
   }
 };
 
-const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
-
 /// Continues through zero as a straight line: an odd effect changes its sign.
 bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
@@ -115,13 +111,10 @@ class Builder {
 
   void add(CauseId cause, const std::vector<SizedCause>& known) {
     std::vector<double> values = nominal_values(*cause.effect);
-    refined_ = false;
-    for (const SizedCause& r : known) {
-      if (r.cause != cause) continue;
-      values.front() = r.values.front();
-      refined_ = true;
-    }
-    if (size_parameter(*cause.effect).integer) {
+    const SizedCause* found = find_where(known, having(&SizedCause::cause, cause));
+    refined_ = found != nullptr;
+    if (refined_) values.front() = found->values.front();
+    if (cause.effect->parameters.front().integer) {
       add_links(cause, values);
     } else if (place_parameter(*cause.effect) == nullptr) {
       add_one(cause, values, std::log(share_of_side(cause)));
@@ -134,10 +127,8 @@ class Builder {
         add_one(cause, values, share);
       }
       // All visits are among the places already.
-      for (const SizedCause& r : known) {
-        if (r.cause == cause && !place_parameter(*cause.effect)->integer)
-          add_one(cause, r.values, share);
-      }
+      if (refined_ && !place_parameter(*cause.effect)->integer)
+        add_one(cause, found->values, share);
     }
   }
 
@@ -311,7 +302,7 @@ void limit(Regressor& regressor) {
 bool add_regressor(Regressor regressor, const ColumnOf& column, RegressorSystem& system) {
   const auto g = column(regressor);
   if (!g || !(g->norm() > 0.0)) return false;
-  if (size_parameter(*regressor.cause.effect).integer) {
+  if (regressor.cause.effect->parameters.front().integer) {
     regressor.fixed = true;
     regressor.lowest = regressor.highest = 1.0;
   } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"
@@ -113,7 +114,7 @@ RegressorSet SetSearch::columns() const {
   const auto count = as_int(system.regressors.size());
   const VectorXd c = with_regressors(system, marginalised, marginalised.e);
   const VectorXd square = squared_lengths(system, marginalised);
-  for (int k = 0; k < count; ++k) {
+  for (const int k : each_below(count)) {
     const Regressor& d = system.regressor(k);
     if (!(square(k) > kLeastSquare)) continue;
     // Shifts of any size set in at a visit.
@@ -123,10 +124,6 @@ RegressorSet SetSearch::columns() const {
   keep_best(shifts, kKeptShifts, explained);
   RegressorSet likeliest = kept;
   append_all(kept, shifts);
-  if (fixed.size() <= kKeptFixed) {
-    append_all(kept, fixed);
-    return kept;
-  }
   keep_best(likeliest, 8, explained);
   const MatrixXd cross =
       with_regressors(system, marginalised, reduced(marginalised, system.g.dense(likeliest)));
@@ -146,46 +143,32 @@ RegressorSet SetSearch::columns() const {
 }
 
 double SetSearch::quick_weight(Index i, Index j) const {
-  const Regressor& a = sets_.regressor(i);
-  const Regressor& b = sets_.regressor(j);
-  const double aa = equations_.gg(i, i);
-  const double bb = equations_.gg(j, j);
+  // One after the other, fixed ones first.
+  if (sets_.regressor(j).fixed) std::swap(i, j);
+  const MatrixXd& gg = equations_.gg;
   double q = equations_.ee;
-  double ca = equations_.ge(i);
-  double cb = equations_.ge(j);
-  const double ab = equations_.gg(i, j);
-  double occam = 0.0;
-  const double kWide = kWideSignalToNoise * kWideSignalToNoise;
-  const auto precision = [&](Index k) {
-    return equations_.prior_square(k) / equations_.gg(k, k) / kWide;
+  double weight = 0.0;
+  // Adds a regressor with this inner product with the residual and this square; returns its
+  // coefficient and what that changes with the product.
+  const auto add = [&](Index k, double c, double square) {
+    const Regressor& own = sets_.regressor(k);
+    weight += own.log_prior;
+    if (own.fixed) {
+      q += square - 2.0 * c;
+      return std::pair(1.0, 0.0);
+    }
+    const double prior = equations_.prior_square(k);
+    const double whole = square + prior / (kWideSignalToNoise * kWideSignalToNoise);
+    q -= c * c / whole;
+    weight -= std::log(kUsualSignalToNoise * std::sqrt(whole / prior));
+    return std::pair(c / whole, 1.0 / whole);
   };
-  // One sigma of the strength, in this metric.
-  const auto usual = [&](Index k) {
-    return kUsualSignalToNoise * std::sqrt(equations_.gg(k, k) / equations_.prior_square(k));
-  };
-  if (a.fixed && b.fixed) {
-    q += aa + bb + 2.0 * (ab - ca - cb);
-  } else if (a.fixed || b.fixed) {
-    const double ff = a.fixed ? aa : bb;
-    const double cf = a.fixed ? ca : cb;
-    const double oo = a.fixed ? bb : aa;
-    const double co = (a.fixed ? cb : ca) - ab;
-    const Index free = a.fixed ? j : i;
-    q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision(free)));
-    occam = std::log(usual(free));
-  } else {
-    ca /= std::sqrt(aa);
-    cb /= std::sqrt(bb);
-    const double collinearity = ab / std::sqrt(aa * bb);
-    const double one_a = 1.0 + precision(i);
-    const double one_b = 1.0 + precision(j);
-    const double det = one_a * one_b - collinearity * collinearity;
-    q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
-    occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
-  }
+  const auto [coefficient, slope] = add(i, equations_.ge(i), gg(i, i));
+  const double across = gg(i, j);
+  add(j, equations_.ge(j) - across * coefficient, gg(j, j) - across * across * slope);
   const double dof = collector_.system().noise_dof;
   const auto n = as_double(collector_.marginalised().kept.size());
-  return -0.5 * (n + dof) * std::log(dof + std::max(q, 0.0)) - occam + a.log_prior + b.log_prior;
+  return weight - 0.5 * (n + dof) * std::log(dof + std::max(q, 0.0));
 }
 
 void SetSearch::pairs() {

@@ -48,7 +48,7 @@ ToolPosition minus(ToolPosition a, ToolPosition b) { return {a.x_mm - b.x_mm, a.
 
 std::vector<ToolPosition> straight(ToolPosition from, ToolPosition to, int count) {
   std::vector<ToolPosition> points;
-  for (int i = 0; i < count; ++i) {
+  for (const int i : each_below(count)) {
     const double part = as_double(i) / (count - 1);
     points.push_back(
         {from.x_mm + part * (to.x_mm - from.x_mm), from.y_mm + part * (to.y_mm - from.y_mm)});
@@ -78,7 +78,7 @@ std::vector<AtlasLine> lattice_over(const MechanismExtent& extent) {
   const auto corner = [&](int i) {
     return plus(centre, {half * kCorners[i % 4][0], half * kCorners[i % 4][1]});
   };
-  for (int i = 0; i < 4; ++i)
+  for (const int i : each_below(4))
     lines.push_back({straight(corner(i), corner(i + 1), kPointsOfSide), true});
   return lines;
 }
@@ -123,7 +123,7 @@ std::vector<double> directions(const SetAndActual& machine, ToolPosition from, T
 
 AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& machine, double size) {
   AtlasFrame frame{size, {}};
-  for (std::size_t k = 0; k < lines.size(); ++k) {
+  for (const auto k : each_index(lines)) {
     const std::vector<ToolPosition>& points = lines[k].points;
     std::vector<std::optional<ToolPosition>> drawn;
     for (const auto i : each_index(points)) {
