@@ -15,8 +15,10 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <numeric>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -40,18 +42,30 @@ constexpr std::size_t as_size(Countable auto position) {
 constexpr Index as_index(Countable auto position) { return static_cast<Index>(position); }
 constexpr int as_int(Countable auto count) { return static_cast<int>(count); }
 constexpr double as_double(std::integral auto count) { return static_cast<double>(count); }
+/// The word of an enumerator, from those of its enumeration in their order.
+constexpr std::string_view word_of(Countable auto one,
+                                   std::initializer_list<std::string_view> words) {
+  return words.begin()[as_size(one)];
+}
 
 template <class Container, class Value>
 bool contains(const Container& all, const Value& one) {
   return std::find(std::begin(all), std::end(all), one) != std::end(all);
 }
+/// A predicate from a member or a function of each element: any_of(points, &MeasuredPoint::order) where
+/// any has an order.
+template <class Predicate>
+auto holding(Predicate holds) {
+  return [=](const auto& one) { return static_cast<bool>(std::invoke(holds, one)); };
+}
+
 template <class Container, class Predicate>
 bool any_of(const Container& all, Predicate holds) {
-  return std::any_of(std::begin(all), std::end(all), holds);
+  return std::any_of(std::begin(all), std::end(all), holding(holds));
 }
 template <class Container, class Predicate>
 bool all_of(const Container& all, Predicate holds) {
-  return std::all_of(std::begin(all), std::end(all), holds);
+  return std::all_of(std::begin(all), std::end(all), holding(holds));
 }
 template <class Container, class Predicate>
 bool none_of(const Container& all, Predicate holds) {
@@ -60,7 +74,7 @@ bool none_of(const Container& all, Predicate holds) {
 
 template <class Container, class Predicate>
 std::size_t count_where(const Container& all, Predicate holds) {
-  return as_size(std::count_if(std::begin(all), std::end(all), holds));
+  return as_size(std::count_if(std::begin(all), std::end(all), holding(holds)));
 }
 template <class Container, class Value>
 std::size_t count_equal(const Container& all, const Value& one) {
@@ -87,7 +101,7 @@ void stable_sort(Container& all, Less... less) {
 /// The first element that satisfies the predicate; null if none does.
 template <class Container, class Predicate>
 auto* find_where(Container& all, Predicate holds) {
-  const auto found = std::find_if(std::begin(all), std::end(all), holds);
+  const auto found = std::find_if(std::begin(all), std::end(all), holding(holds));
   return found != std::end(all) ? &*found : nullptr;
 }
 

@@ -51,10 +51,10 @@ observation::TapedDistance taped_between(const BeltMachine& machine, const BeltD
 }  // namespace
 
 observation::AtHole hole_at(const BeltMachine& in_force, BedPoint command) {
-  const FramePoint meant = model::to_frame(in_force, command);
+  const FramePoint meant = to_frame(in_force, command);
   const ToolPosition at{meant.x_mm, meant.y_mm};
   const auto paid_out =
-      model::make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
+      make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
   constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
   return {paid_out ? paid_out->lengths_mm : VectorXd::Constant(4, kNoLength),
           {true, true, false, false},
@@ -173,6 +173,36 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   return frame;
 }
 
+/// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
+/// the lengths.
+std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
+  std::vector<AnchorVector> frames;
+  if (belts.machine.anchors_known) frames.push_back(anchors_of(belts.machine));
+  // Two belts from opposite sides are together at least as long as their side of the frame. The
+  // other points reveal a lost digit.
+  std::vector<double> widths;
+  std::vector<double> heights;
+  for (const BeltPoint& point : belts.points) {
+    const auto& l = point.lengths_mm;
+    widths.push_back(std::min(l.tl + l.tr, l.bl + l.br));
+    heights.push_back(std::min(l.tl + l.bl, l.tr + l.br));
+  }
+  sort(widths);
+  sort(heights);
+  const double arms_mm =
+      belts.machine.lengths == model::BeltLengths::belt ? 2.0 * reach_mm(belts.machine) : 0.0;
+  for (const std::size_t least : each_below(std::min<std::size_t>(widths.size(), 2))) {
+    for (const double share : {0.9, 0.75, 0.97}) {
+      for (const double other : {share, 0.6}) {
+        const double w = share * (widths[least] + arms_mm);
+        const double h = other * (heights[least] + arms_mm);
+        frames.emplace_back(AnchorVector{0.0, h, w, h, w});
+      }
+    }
+  }
+  return frames;
+}
+
 /// From the likeliest start, without a tape. In an implausible fit every reading counts.
 std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
   const Counting all(belts.points.size(), kAllBelts);
@@ -224,10 +254,10 @@ std::shared_ptr<const Mechanism> mechanism_at(const MeasuredBelts& belts, const 
   BeltMachine unknown = belts.machine;
   unknown.anchors_known = false;
   VectorXd values = state.anchors;
-  if (belts.distances.empty()) return model::make_belt_mechanism(unknown)->with_values(values);
+  if (belts.distances.empty()) return make_belt_mechanism(unknown)->with_values(values);
   values.conservativeResize(kAnchorUnknowns + 1);
   values[kAnchorUnknowns] = state.log_scale;
-  return model::make_belt_mechanism(unknown, std::nullopt, model::BeltScaleKnowledge{})
+  return make_belt_mechanism(unknown, std::nullopt, model::BeltScaleKnowledge{})
       ->with_values(values);
 }
 
@@ -294,8 +324,8 @@ FramePoint nearest_place(const BeltMachine& machine, const BeltPoint& point,
                          const PerBelt<bool>& counting) {
   PerBelt<double> spans;
   for (const Belt belt : kBelts) {
-    spans[belt] = model::span_of(machine, belt, point.lengths_mm[belt])
-                      .value_or(point.lengths_mm[belt] + model::reach_mm(machine));
+    spans[belt] = span_of(machine, belt, point.lengths_mm[belt])
+                      .value_or(point.lengths_mm[belt] + reach_mm(machine));
   }
   const auto& a = machine.anchors;
   const auto square_at = [&](FramePoint at) {
@@ -321,35 +351,6 @@ FramePoint nearest_place(const BeltMachine& machine, const BeltPoint& point,
     }
   }
   return best;
-}
-
-std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
-  std::vector<AnchorVector> frames;
-  if (belts.machine.anchors_known) frames.push_back(anchors_of(belts.machine));
-  // Two belts from opposite sides are together at least as long as their side of the frame. The
-  // other points reveal a lost digit.
-  std::vector<double> widths;
-  std::vector<double> heights;
-  for (const BeltPoint& point : belts.points) {
-    const auto& l = point.lengths_mm;
-    widths.push_back(std::min(l.tl + l.tr, l.bl + l.br));
-    heights.push_back(std::min(l.tl + l.bl, l.tr + l.br));
-  }
-  sort(widths);
-  sort(heights);
-  const double arms_mm = belts.machine.lengths == model::BeltLengths::belt
-                             ? 2.0 * model::reach_mm(belts.machine)
-                             : 0.0;
-  for (std::size_t least = 0; least < std::min<std::size_t>(widths.size(), 2); ++least) {
-    for (const double share : {0.9, 0.75, 0.97}) {
-      for (const double other : {share, 0.6}) {
-        const double w = share * (widths[least] + arms_mm);
-        const double h = other * (heights[least] + arms_mm);
-        frames.emplace_back(AnchorVector{0.0, h, w, h, w});
-      }
-    }
-  }
-  return frames;
 }
 
 }  // namespace chaintrue::grid::belts

@@ -28,10 +28,6 @@ namespace chaintrue::grid::belts {
 FramePoint nearest_place(const BeltMachine& machine, const BeltPoint& point,
                          const PerBelt<bool>& counting);
 
-/// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
-/// the lengths.
-std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
-
 /// Readings that count, and the distances; units are places of which three or four readings count.
 /// `about` has a position of each point to linearise about, or is empty. \throws
 /// std::invalid_argument with both distances and positions.

@@ -59,3 +59,14 @@ bool are_on_a_line(const std::vector<FramePoint>& places);
 Index checks_of(const Counting& counting);
 
 }  // namespace chaintrue::grid::belts
+
+namespace chaintrue::grid {
+using belts::AnchorFit;
+using belts::anchors_of;
+using belts::AnchorVector;
+using belts::Counting;
+using belts::FrameState;
+using belts::kAllBelts;
+using belts::kAnchorUnknowns;
+using belts::with_anchors;
+}  // namespace chaintrue::grid

@@ -17,7 +17,7 @@ namespace {
 std::string words_of_belts(const CheckHypothesis& h) {
   if (h.what == model::Change::zero && h.side.empty())
     return fmt::format("the zero of all four belts has shifted by {:+.1f} mm", h.size());
-  const auto belt = model::words(model::belt_of(h.side).value());
+  const auto belt = words(model::belt_of(h.side).value());
   if (h.what == model::Change::zero)
     return fmt::format("the zero of the {} belt has shifted by {:+.1f} mm", belt, h.size());
   return fmt::format("the {} anchor has moved by some {:.1f} mm against the others", belt,
@@ -46,10 +46,9 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
   std::vector<AppliedEffect> effects;
   for (const CauseInAnchorFit& cause : fit.causes)
     effects.push_back({cause.effect, cause.side, cause.parameters});
-  const auto mechanism =
-      model::make_belt_mechanism(belts::with_anchors(belts.machine, belts::anchors_of(fit.machine)))
-          ->with_effects(effects);
-  const belts::Counting all(belts.points.size(), belts::kAllBelts);
+  const auto mechanism = make_belt_mechanism(with_anchors(belts.machine, anchors_of(fit.machine)))
+                             ->with_effects(effects);
+  const Counting all(belts.points.size(), kAllBelts);
   const auto check =
       check_lengths({mechanism, fit.covariance_mm2, fit.residual_sigma_mm, as_double(fit.checks)},
                     belts::readings_of(belts, all).readings(), words_of_anchors());

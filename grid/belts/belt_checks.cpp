@@ -117,8 +117,7 @@ Frame frame_of(const MeasuredBelts& belts) {
   frame.residual_sigma_mm = fitted->residual_sigma_mm;
   frame.far_from_commands_mm = far_from_commands(belts, fitted->state.places);
   if (belts.machine.anchors_known) {
-    frame.far_mm =
-        (fitted->state.anchors - belts::anchors_of(belts.machine)).lpNorm<Eigen::Infinity>();
+    frame.far_mm = (fitted->state.anchors - anchors_of(belts.machine)).lpNorm<Eigen::Infinity>();
   } else {
     frame.far_mm = frame.far_from_commands_mm;
   }
@@ -165,27 +164,26 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
   return result;
 }
 
-std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
+std::optional<AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
   const MeasuredBelts untaped = without_distances(belts);
   auto frame = belts::fit_anchors_robustly(untaped);
   if (!frame || !frame->is_sound) return std::nullopt;
   return frame;
 }
 
-std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
-                                         const belts::AnchorFit& frame) {
+std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const AnchorFit& frame) {
   // A lost digit or another frame; smaller errors are left to the fit.
   constexpr double kNowhereMm = 100.0;
   std::vector<NowherePoint> result;
-  const BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const BeltMachine machine = with_anchors(belts.machine, frame.state.anchors);
   for (const auto k : each_index(belts.points)) {
     int rejected = 0;
     for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
     if (rejected < 2) continue;
-    const auto place = belts::nearest_place(machine, belts.points[k], belts::kAllBelts);
+    const auto place = belts::nearest_place(machine, belts.points[k], kAllBelts);
     double residual_mm = 0.0;
     for (const Belt belt : kBelts) {
-      const auto reading = model::reading_at(machine, belt, place);
+      const auto reading = reading_at(machine, belt, place);
       if (reading)
         residual_mm =
             std::max(residual_mm, std::abs(belts.points[k].lengths_mm[belt] - reading->length_mm));
@@ -195,19 +193,18 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
   return result;
 }
 
-std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
-                                             const belts::AnchorFit& frame) {
+std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts, const AnchorFit& frame) {
   std::vector<BeltQuestion> result;
-  const BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const BeltMachine machine = with_anchors(belts.machine, frame.state.anchors);
   const double scale_mm = std::max(frame.residual_sigma_mm, 0.5);
   const double gross_mm = std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
   for (const auto k : each_index(belts.points)) {
     for (const Belt belt : kBelts) {
       if (frame.counting[k][belt]) continue;
-      PerBelt<bool> others = belts::kAllBelts;
+      PerBelt<bool> others = kAllBelts;
       others[belt] = false;
       const auto place = belts::nearest_place(machine, belts.points[k], others);
-      const auto reading = model::reading_at(machine, belt, place);
+      const auto reading = reading_at(machine, belt, place);
       const double read_mm = belts.points[k].lengths_mm[belt];
       if (!reading || std::abs(reading->length_mm - read_mm) < gross_mm) continue;
       double most = input_checks::log_density_of(reading->length_mm - read_mm, scale_mm, 1) +
@@ -238,24 +235,24 @@ namespace {
 
 /// Where a tape ends, in the frame that the lengths alone make.
 std::optional<Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
-                               const belts::AnchorFit& frame) {
+                               const AnchorFit& frame) {
   if (const auto* index = std::get_if<std::size_t>(&end)) {
     if (*index >= frame.state.places.size()) return std::nullopt;
     return vector_of(frame.state.places[*index]);
   }
   if (const auto* belt = std::get_if<Belt>(&end)) {
-    const auto anchor = belts::with_anchors(belts.machine, frame.state.anchors).anchors[*belt];
+    const auto anchor = with_anchors(belts.machine, frame.state.anchors).anchors[*belt];
     return vector_of(anchor);
   }
   if (!belts.machine.anchors_known) return std::nullopt;
-  const FramePoint centre = model::centre_of(belts.machine);
+  const FramePoint centre = centre_of(belts.machine);
   const BedPoint at = std::get<CutHole>(end).commanded;
   return Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
 }
 
 /// Each distance as the frame predicts it; empty if an end has no position.
 std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts,
-                                                      const belts::AnchorFit& frame) {
+                                                      const AnchorFit& frame) {
   std::vector<std::optional<double>> by_belts_mm;
   for (const BeltDistance& distance : belts.distances) {
     const auto from = end_of(distance.from, belts, frame);
@@ -266,7 +263,7 @@ std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts
 }
 
 /// One sigma of a predicted distance, mm.
-double sigma_of(const MeasuredBelts& belts, const belts::FitDiagnostics& view,
+double sigma_of(const MeasuredBelts& belts, const FitDiagnostics& view,
                 const BeltDistance& distance) {
   const auto expected = view.expected(belts, distance);
   return expected && expected->variance_mm2 > 0.0 ? std::sqrt(expected->variance_mm2) : kInfinity;
@@ -280,8 +277,7 @@ std::string question_of(double distance_mm, double by_belts_mm) {
       {0.5 * d, fmt::format("is it double the true {:.10g} mm?", 0.5 * d), 0.0},
       {2.0 * d, fmt::format("is it half of the true {:.10g} mm?", 2.0 * d), 0.0},
       {10.0 * d, fmt::format("is it in centimetres, {:.10g} mm?", 10.0 * d), 0.0}};
-  for (input_checks::NumberError& slip : input_checks::number_errors(d, false))
-    slips.push_back(std::move(slip));
+  append_all(slips, input_checks::number_errors(d, false));
   std::string question = "was it misread?";
   double least = kInfinity;
   for (const input_checks::NumberError& slip : slips) {
@@ -305,7 +301,7 @@ std::string question_of(double distance_mm, double by_belts_mm) {
 }  // namespace
 
 std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
-                                                  const belts::AnchorFit& frame) {
+                                                  const AnchorFit& frame) {
   // Belt lengths of all known machines are accurate to half a per cent (scales of 0.1 to 0.3 %), so
   // a single tape that differs by three times that is wrong. Several tapes that agree may show a
   // true scale.
@@ -314,7 +310,7 @@ std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
   constexpr double kSigmas = 5.0;
   if (belts.distances.empty()) return {};
   const MeasuredBelts untaped = without_distances(belts);
-  const belts::FitDiagnostics view(untaped, frame);
+  const FitDiagnostics view(untaped, frame);
   const auto by_belts_mm = distances_by_belts(belts, frame);
   std::vector<DistanceQuestion> result;
   for (const auto i : each_index(belts.distances)) {

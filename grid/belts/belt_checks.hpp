@@ -37,7 +37,7 @@ struct SwappedBelts {
 std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts);
 
 /// The frame fitted to the lengths without a tape; empty if they fit none.
-std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts);
+std::optional<AnchorFit> frame_of_lengths(const MeasuredBelts& belts);
 
 /// A point whose lengths do not meet.
 struct NowherePoint {
@@ -45,7 +45,7 @@ struct NowherePoint {
   double residual_mm = 0.0;  ///< residual of the worst belt at the best place
 };
 /// With the anchors fitted to the other points.
-std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const belts::AnchorFit& frame);
+std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const AnchorFit& frame);
 
 /// A reading that the other three belts contradict, and the writing error that would explain it.
 struct BeltQuestion {
@@ -53,8 +53,7 @@ struct BeltQuestion {
   Belt belt{};
   std::string sentence;
 };
-std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
-                                             const belts::AnchorFit& frame);
+std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts, const AnchorFit& frame);
 
 /// A taped distance that no scale of the belts explains: off by more than 1.5 % and five sigmas
 /// from the prediction by lengths alone or, if the other tapes agree with it, by more than an
@@ -65,7 +64,7 @@ struct DistanceQuestion {
   std::string question;
 };
 std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
-                                                  const belts::AnchorFit& frame);
+                                                  const AnchorFit& frame);
 
 struct OtherUnit {
   const char* word;

@@ -26,8 +26,8 @@ bool put_set(const BeltHoles& holes, const AnchorVector& anchors, double factor,
     throw precondition("{} holes of a machine whose anchors in force are not known",
                        holes.set.holes.size());
   }
-  const auto mechanism = model::make_belt_mechanism(holes.machine)->with_values(anchors);
-  const FramePoint centre = model::centre_of(holes.machine);
+  const auto mechanism = make_belt_mechanism(holes.machine)->with_values(anchors);
+  const FramePoint centre = centre_of(holes.machine);
   const auto count = std::ssize(holes.set.holes);
   const Index first = 2 * std::ssize(all.marks);
   std::vector<MarkPoint> marks;
@@ -82,7 +82,7 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets, const An
                 {},
                 MatrixXd::Zero(distances, distances),
                 MatrixXd::Zero(distances, distances)};
-  const FramePoint origin = model::centre_of(sets.front().machine);
+  const FramePoint origin = centre_of(sets.front().machine);
   Index row = 0;
   for (const BeltHoles& set : sets) {
     if (!put_set(set, anchors, std::exp(log_scale), origin, row, all)) return std::nullopt;

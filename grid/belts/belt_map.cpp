@@ -17,7 +17,6 @@ using model::BeltFailure;
 
 namespace {
 
-using belts::kAnchorUnknowns;
 using belts::kFrameUnknowns;
 
 double span_mm(const BeltMachine& machine, Belt belt, FramePoint place) {
@@ -36,7 +35,7 @@ VectorXd unknowns_of(const BeltsFit& fit, const HolesWithBelts* holes) {
   const bool smooth = holes != nullptr && holes->displacement;
   const Index moved = smooth ? holes->displacement->at_mm.size() : 0;
   VectorXd unknowns(kFrameUnknowns + moved);
-  unknowns.head<kAnchorUnknowns>() = belts::anchors_of(fit.machine);
+  unknowns.head<kAnchorUnknowns>() = anchors_of(fit.machine);
   unknowns[kAnchorUnknowns] = fit.scale ? std::log(fit.scale->factor) : 0.0;
   if (smooth) unknowns.tail(moved) = holes->displacement->at_mm;
   return unknowns;
@@ -55,9 +54,9 @@ MatrixXd covariance_of(const BeltsFit& fit, const HolesWithBelts* holes) {
 
 /// The tool comes no nearer to an anchor than arm and extension are long.
 interp::Rectangle domain_of(const BeltMachine& machine) {
-  const FramePoint centre = model::centre_of(machine);
+  const FramePoint centre = centre_of(machine);
   const auto& a = machine.anchors;
-  const double reach = model::reach_mm(machine);
+  const double reach = reach_mm(machine);
   return {std::min(a.tl.x_mm, a.bl.x_mm) + reach - centre.x_mm,
           std::max(a.tr.x_mm, a.br.x_mm) - reach - centre.x_mm, reach - centre.y_mm,
           std::max(a.tl.y_mm, a.tr.y_mm) - reach - centre.y_mm};
@@ -86,8 +85,8 @@ class Placing {
 
   /// `lengths` is what the mechanism's lengths count.
   PlacedMechanism at(const VectorXd& unknowns, model::BeltLengths lengths) const {
-    BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
-    const FramePoint centre = model::centre_of(in_force_);
+    BeltMachine machine = with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
+    const FramePoint centre = centre_of(in_force_);
     SheetInFrame sheet{{}, std::exp(unknowns[kAnchorUnknowns]), {centre.x_mm, centre.y_mm}};
     if (displacement_) {
       DisplacementParts parts = *displacement_;
@@ -96,27 +95,26 @@ class Placing {
     }
     lay(machine, sheet);
     machine.lengths = lengths;
-    return {model::make_belt_mechanism(machine), std::move(sheet)};
+    return {make_belt_mechanism(machine), std::move(sheet)};
   }
 
   std::vector<MarkPoint> measured() const {
-    std::vector<MarkPoint> points;
-    for (const Reference& reference : references_)
-      points.push_back(model::identity_placement(reference.commanded));
-    return points;
+    return mapped(references_, [](const Reference& reference) {
+      return identity_placement(reference.commanded);
+    });
   }
 
  private:
   void refer_to_holes(const HolesWithBelts& holes) {
     for (const BeltHole& hole : holes.holes) {
-      const FramePoint meant = model::to_frame(in_force_, hole.commanded);
+      const FramePoint meant = to_frame(in_force_, hole.commanded);
       references_.push_back({hole.commanded, span_mm(in_force_, Belt::tl, meant),
                              span_mm(in_force_, Belt::tr, meant)});
     }
   }
 
   void refer_to_places(const BeltsFit& fit) {
-    const FramePoint centre = model::centre_of(in_force_);
+    const FramePoint centre = centre_of(in_force_);
     for (const FittedPlace& place : fit.places) {
       const double left = span_mm(fit.machine, Belt::tl, place.at);
       const double right = span_mm(fit.machine, Belt::tr, place.at);
@@ -140,7 +138,7 @@ class Placing {
     for (const Reference& reference : references_) {
       const auto place = end_of_spans(machine, reference.left_mm, reference.right_mm);
       if (!place) continue;
-      from.push_back(model::identity_placement(placed.on_sheet({place->x_mm, place->y_mm})));
+      from.push_back(identity_placement(placed.on_sheet({place->x_mm, place->y_mm})));
       to.push_back(reference.commanded);
     }
     if (from.size() >= 2) placed.laid = laid_on(from, to);
@@ -171,13 +169,13 @@ BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
 }  // namespace
 
 BeltMachine machine_in_force(const BeltsFit& fit) {
-  belts::AnchorVector stated;
+  AnchorVector stated;
   for (const Index i : each_below(kAnchorUnknowns)) {
     const auto& one = fit.coordinates[as_size(i)].stated_mm;
     if (!one) throw precondition("anchors in force that nobody gave");
     stated[i] = *one;
   }
-  return belts::with_anchors(fit.machine, stated);
+  return with_anchors(fit.machine, stated);
 }
 
 BeltMachine paying_out(BeltMachine machine) {

@@ -215,7 +215,6 @@ namespace chaintrue::grid {
 
 namespace {
 
-using belts::kAnchorUnknowns;
 using belts::kFrameUnknowns;
 using belts::KnownFrame;
 using belts::TapedMarginal;
@@ -223,8 +222,8 @@ using belts::TapedState;
 
 /// `frame` is the belts' own fit, and `fit` its report; both move to the state.
 void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const TapedState& state,
-                const MatrixXd& covariance, belts::AnchorFit frame, BeltsFit& fit) {
-  fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
+                const MatrixXd& covariance, AnchorFit frame, BeltsFit& fit) {
+  fit.machine = with_anchors(measured.machine, state.frame.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
   for (const auto i : each_index(fit.coordinates)) {
     const auto row = as_index(i);
@@ -242,8 +241,8 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   fit.scale = std::move(scale);
   if (measured.points.empty()) return;
   frame.state = state.frame;
-  belts::place_all(measured, frame);
-  const belts::FitDiagnostics view(measured, frame);
+  place_all(measured, frame);
+  const FitDiagnostics view(measured, frame);
   const belts::FitResiduals& there = view.equations();
   for (const auto k : each_index(fit.places)) {
     fit.places[k].at = frame.state.places[k];
@@ -296,7 +295,7 @@ MatrixXd posterior(const KnownFrame& known, const TapedState& state,
 std::optional<Vector3d> sheet_by_edges(const TapedState& state, const MeasuredHoles& first) {
   const observation::SheetPrior measured = observation::sheet_measured(first);
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
-  const MatrixXd c = belts::taped_covariance(state.rows, state.noise, state.counting);
+  const MatrixXd c = taped_covariance(state.rows, state.noise, state.counting);
   const auto own = std::ssize(first.distances);
   const VectorXd weighed = linear::Cholesky(c).solve(state.rows.residual_mm).head(own);
   const Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
@@ -359,7 +358,7 @@ KnownFrame known_frame(const BeltsByThemselves& alone) {
 tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const MeasuredBelts& measured) {
   if (measured.points.empty()) {
     BeltsByThemselves stated;
-    stated.frame.state.anchors = belts::anchors_of(measured.machine);
+    stated.frame.state.anchors = anchors_of(measured.machine);
     stated.covariance =
         kStatedAnchorMm * kStatedAnchorMm * MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns);
     stated.fit.machine = measured.machine;
@@ -372,7 +371,7 @@ tl::expected<BeltsByThemselves, BeltsFitFailure> fit_by_themselves(const Measure
   auto fit = fit_belts(measured);
   if (!fit) return failed(fit);
   auto frame = belts::fit_anchors_robustly(measured);
-  MatrixXd covariance = belts::FitDiagnostics(measured, *frame).covariance();
+  MatrixXd covariance = FitDiagnostics(measured, *frame).covariance();
   return BeltsByThemselves{*std::move(fit), *std::move(frame), std::move(covariance)};
 }
 

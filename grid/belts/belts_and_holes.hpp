@@ -96,7 +96,7 @@ struct BeltsAndHolesFit {
 /// The state known without the holes.
 struct BeltsByThemselves {
   BeltsFit fit;
-  belts::AnchorFit frame;
+  AnchorFit frame;
   MatrixXd covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
 };
 /// Allows for errors of readings only; diagnosis/anchors_with_causes.hpp also allows for causes. Without points, the anchors of

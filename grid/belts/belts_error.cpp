@@ -13,8 +13,7 @@ namespace chaintrue::grid {
 namespace {
 
 bool anchors_were_known(const BeltsFit& fit) {
-  return all_of(fit.coordinates,
-                [](const AnchorCoordinate& one) { return one.stated_mm.has_value(); });
+  return all_of(fit.coordinates, &AnchorCoordinate::stated_mm);
 }
 
 /// The anchors in force are unknown: the fitted ones place the sheet.

@@ -61,7 +61,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
       "no four anchors fit these lengths: are they from one frame, in mm, each under its own belt?";
   if (!frame)
     return are_in_one_spot(belts) ? not_determined(belts) : failed(Reason::no_frame, kNoFrame);
-  const belts::FitDiagnostics view(belts, *frame);
+  const FitDiagnostics view(belts, *frame);
   if (frame->residual_sigma_mm > kNoFrameMm) {
     return failed(Reason::no_frame,
                   fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
@@ -75,10 +75,10 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
     return not_determined(belts);
   }
   if (!frame->is_sound) return failed(Reason::no_frame, kNoFrame);
-  BeltsFit fit = belts::fit_report(belts, view, view.covariance());
-  fit.half_left_out = belts::predict_by_halves(
-      belts, *frame, [&belts](const belts::AnchorFit& from) -> std::optional<belts::Refitted> {
-        auto fitted = belts::fit_anchors_from(without_distances(belts), from.state, from.counting);
+  BeltsFit fit = fit_report(belts, view, view.covariance());
+  fit.half_left_out = predict_by_halves(
+      belts, *frame, [&belts](const AnchorFit& from) -> std::optional<belts::Refitted> {
+        auto fitted = fit_anchors_from(without_distances(belts), from.state, from.counting);
         if (!fitted) return std::nullopt;
         return belts::Refitted{*std::move(fitted), belts};
       });

@@ -22,8 +22,7 @@ std::vector<ExpectedPlace> expected_places(const MeasuredBelts& belts) {
   std::vector<ExpectedPlace> places;
   for (const BeltPoint& point : belts.points) {
     if (!point.commanded) continue;
-    const auto lengths =
-        model::lengths_at(belts.machine, model::to_frame(belts.machine, *point.commanded));
+    const auto lengths = lengths_at(belts.machine, to_frame(belts.machine, *point.commanded));
     if (lengths) places.push_back({point.lengths_mm, *lengths});
   }
   return places;
@@ -71,7 +70,7 @@ std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts) {
     std::vector<double> off;
     for (const ExpectedPlace& place : places) {
       off.push_back(place.read_mm[belt] - place.expected_mm[belt]);
-      if (model::is_upper(belt)) upper_mm.push_back(std::abs(off.back()));
+      if (is_upper(belt)) upper_mm.push_back(std::abs(off.back()));
     }
     found.median_mm[belt] = median(off);
   }
@@ -82,7 +81,7 @@ std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts) {
 }
 
 std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
-                                                const belts::AnchorFit& frame) {
+                                                const AnchorFit& frame) {
   // Owners measure their frame to a decimetre or two before the first run; another frame is off by
   // more.
   constexpr double kFarMm = 400.0;
@@ -93,13 +92,13 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
   constexpr std::array kNames = {"tl x", "tl y", "tr x", "tr y", "br x"};
   if (!belts.machine.anchors_known) return std::nullopt;
   const MeasuredBelts untaped = without_distances(belts);
-  const belts::FitDiagnostics view(untaped, frame);
-  const belts::AnchorVector stated = belts::anchors_of(belts.machine);
+  const FitDiagnostics view(untaped, frame);
+  const AnchorVector stated = anchors_of(belts.machine);
   const auto against = against_commands(belts);
   const double upper_mm = against && against->places >= kFewestBeltPoints ? against->upper_mm : 0.0;
   const double far_mm = upper_mm > kUpperMm ? kFarWithCommandsMm : kFarMm;
   std::optional<OtherFrame> found;
-  for (const Index i : each_below(belts::kAnchorUnknowns)) {
+  for (const Index i : each_below(kAnchorUnknowns)) {
     const double difference_mm = std::abs(frame.state.anchors[i] - stated[i]);
     const double variance = view.covariance()(i, i);
     if (!(variance > 0.0) || difference_mm < far_mm ||

@@ -43,7 +43,6 @@ struct OtherFrame {
   double upper_mm = 0.0;
 };
 /// `frame` is the fit without a tape. Empty if the stated anchors may be right or none are stated.
-std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
-                                                const belts::AnchorFit& frame);
+std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts, const AnchorFit& frame);
 
 }  // namespace chaintrue::grid

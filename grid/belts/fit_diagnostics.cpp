@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/fit_diagnostics.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +19,7 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
   const BeltMachine machine = with_anchors(belts.machine, state.anchors);
   for (const auto k : each_index(belts.points)) {
     for (const Belt belt : kBelts) {
-      const auto reading = model::reading_at(machine, belt, state.places[k]);
+      const auto reading = reading_at(machine, belt, state.places[k]);
       if (!reading) continue;
       const Index row = row_of(k, belt);
       lines.residual_mm[row] = belts.points[k].lengths_mm[belt] - reading->length_mm;
@@ -227,10 +226,10 @@ void predict_point(const MeasuredBelts& belts, std::size_t point, const AnchorVe
   if (!counting.tl || !counting.tr) return;
   const BeltMachine machine = with_anchors(belts.machine, anchors);
   const auto& lengths = belts.points[point].lengths_mm;
-  const auto place = model::place_of_upper(machine, lengths.tl, lengths.tr);
+  const auto place = place_of_upper(machine, lengths.tl, lengths.tr);
   if (!place) return;
   for (const Belt belt : {Belt::bl, Belt::br}) {
-    const auto predicted = model::reading_at(machine, belt, *place);
+    const auto predicted = reading_at(machine, belt, *place);
     if (counting[belt] && predicted) residual_mm.push_back(lengths[belt] - predicted->length_mm);
   }
 }

@@ -145,3 +145,7 @@ std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts, cons
                                                 const Refit& refit);
 
 }  // namespace chaintrue::grid::belts
+
+namespace chaintrue::grid {
+using belts::FitDiagnostics;
+}  // namespace chaintrue::grid

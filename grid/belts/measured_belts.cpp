@@ -28,7 +28,7 @@ MeasuredBelts without_distances(MeasuredBelts belts) {
 }
 
 bool is_pulled(const BeltPoint& point, Belt belt) {
-  if (!point.pulled) return !model::is_upper(belt);
+  if (!point.pulled) return !is_upper(belt);
   return contains(*point.pulled, belt);
 }
 
@@ -74,7 +74,7 @@ std::string words_of(const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end))
     return fmt::format("point {}", *index + 1);
   if (const auto* belt = std::get_if<Belt>(&end)) {
-    return fmt::format("the {} anchor", model::words(*belt));
+    return fmt::format("the {} anchor", words(*belt));
   }
   const BedPoint at = std::get<CutHole>(end).commanded;
   return fmt::format("the hole at ({:g}, {:g})", at.x_mm, at.y_mm);

@@ -41,7 +41,7 @@ std::vector<BeltEnd> ends_of(const MeasuredBelts& belts, const BeltsFit& fit) {
       ends.emplace_back(index);
       continue;
     }
-    const FramePoint centre = model::centre_of(belts.machine);
+    const FramePoint centre = centre_of(belts.machine);
     const auto whole = [](double mm) { return kWholeMm * std::round(mm / kWholeMm) + 0.0; };
     ends.emplace_back(CutHole{{whole(fit.places[index].at.x_mm - centre.x_mm),
                                whole(fit.places[index].at.y_mm - centre.y_mm)}});
@@ -49,9 +49,9 @@ std::vector<BeltEnd> ends_of(const MeasuredBelts& belts, const BeltsFit& fit) {
   return ends;
 }
 
-belts::AnchorFit frame_of(const BeltsFit& fit) {
-  belts::AnchorFit frame;
-  frame.state.anchors = belts::anchors_of(fit.machine);
+AnchorFit frame_of(const BeltsFit& fit) {
+  AnchorFit frame;
+  frame.state.anchors = anchors_of(fit.machine);
   for (const FittedPlace& place : fit.places) {
     frame.state.places.push_back(place.at);
     PerBelt<bool>& counts = frame.counting.emplace_back();
@@ -65,15 +65,14 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
 }
 
 /// One sigma of the scale with this distance as well; infinity if it is not determined.
-double sigma_with(const MeasuredBelts& belts, const belts::FitDiagnostics& view,
-                  BeltDistance& distance) {
+double sigma_with(const MeasuredBelts& belts, const FitDiagnostics& view, BeltDistance& distance) {
   const auto expected = view.expected(belts, distance);
   if (!expected || !(expected->mm > 0.0)) return kInfinity;
   distance.distance_mm = expected->mm;
   const double noise = distance.sigma_mm * distance.sigma_mm + expected->variance_mm2;
   // The first distance determines the scale alone.
   if (!view.has_scale()) return std::sqrt(noise) / expected->mm;
-  const double known = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
+  const double known = view.covariance()(kAnchorUnknowns, kAnchorUnknowns);
   const double left = known - expected->with_scale * expected->with_scale / noise;
   return left > 0.0 ? std::sqrt(left) : kInfinity;
 }
@@ -91,7 +90,7 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
   };
   add_pairs({kBelts.begin(), kBelts.end()});
   add_pairs(ends_of(belts, fit));
-  const belts::FitDiagnostics view(belts, frame_of(fit));
+  const FitDiagnostics view(belts, frame_of(fit));
   std::optional<DistanceForScale> best;
   for (const auto& [from, to] : pairs) {
     BeltDistance distance{from, to, 0.0, kTapedDistanceMm};

@@ -34,8 +34,8 @@ MeasuredBelts evenly_of(const MeasuredBelts& belts, std::size_t first, std::size
   return part;
 }
 
-std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::size_t first,
-                                             std::size_t end) {
+std::optional<AnchorFit> fitted_frame(const MeasuredBelts& belts, std::size_t first,
+                                      std::size_t end) {
   auto fitted = belts::fit_anchors(evenly_of(belts, first, end));
   return fitted && fitted->is_sound ? std::optional(*std::move(fitted)) : std::nullopt;
 }
@@ -48,7 +48,7 @@ double apart_mm(const MeasuredBelts& belts, std::size_t end, std::size_t begin) 
   const auto after = fitted_frame(belts, begin, belts.points.size());
   if (!before || !after) return kInfinity;
   // tl x and y, tr x and y, br x
-  const belts::AnchorVector moved = (after->state.anchors - before->state.anchors).cwiseAbs();
+  const AnchorVector moved = (after->state.anchors - before->state.anchors).cwiseAbs();
   const int anchors = (moved.segment<2>(0).maxCoeff() > kStandsElsewhereMm) +
                       (moved.segment<2>(2).maxCoeff() > kStandsElsewhereMm) +
                       (moved[4] > kStandsElsewhereMm);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/outlier_search.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/failed.hpp"
 #include "grid/statistics.hpp"
 
@@ -182,7 +182,7 @@ class CalibratedRules final : public AnalysisRules {
     return {};
   }
   ComparisonOptions compared(const Analysis& a, bool /*last*/) const override {
-    ComparisonOptions options{.given_cause = a.options.given_cause};
+    ComparisonOptions options;
     // A smooth pattern is one of chain lengths over the bed.
     options.discrepancies = a.session.is_of_chains();
     if (!a.comparison.models.empty()) options.kernels = best_kernels(a.comparison);
@@ -232,15 +232,12 @@ tl::expected<void, DiagnosisFailure> compare_in_rounds(const AnalysisRules& rule
 }
 
 void judge(const AnalysisRules& rules, Analysis& a) {
-  const DiagnosisOptions& options = a.options;
   test_significance(rules, a);
   // An average has no weights that remain valid without some of the readings.
-  if (!options.given_cause) {
-    a.sessions = session_posteriors(a.system, a.session.fewest_units, a.comparison);
-    if (options.average_parts)
-      a.parts = average_over_parts(a.system, a.session.fewest_units, a.comparison);
-  }
-  decide_by(rules, options.given_cause.has_value() || a.family_wise_p < rules.false_alarm, a);
+  a.sessions = session_posteriors(a.system, a.session.fewest_units, a.comparison);
+  if (a.options.average_parts)
+    a.parts = average_over_parts(a.system, a.session.fewest_units, a.comparison);
+  decide_by(rules, a.family_wise_p < rules.false_alarm, a);
 }
 
 tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,

@@ -41,13 +41,12 @@ constexpr CauseWeight kWeights[] = {{"belt_zero", 0.06}, {"drift", 0.045}};
 constexpr double kOtherWeight = 0.013;
 
 double odds_of(const CauseId& cause) {
-  const auto* found =
-      find_where(kWeights, [&](const CauseWeight& own) { return own.effect == cause.effect->id; });
+  const auto* found = find_where(kWeights, having(&CauseWeight::effect, cause.effect->id));
   return found == nullptr ? kOtherWeight : found->odds;
 }
 
 bool is_in(const std::vector<SizedCause>& known, const CauseId& cause) {
-  return any_of(known, [&cause](const SizedCause& own) { return own.cause == cause; });
+  return any_of(known, having(&SizedCause::cause, cause));
 }
 
 /// Prior variances of a coefficient in units of the noise: usual, and wide as in an estimate.
@@ -100,7 +99,6 @@ double hold_to_usual_sizes(const std::vector<SizedCause>& known, const Regressor
     found.covariance -= gain * column.transpose();
   }
   found.setting_change += change.head(settings);
-  found.setting_covariance = found.covariance.topLeftCorner(settings, settings);
   for (const auto i : each_index(found.free)) {
     const auto k = as_index(found.free[i]);
     const Index at = settings + as_index(i);
@@ -131,7 +129,7 @@ struct SizeMoments {
   AveragedCause averaged() const {
     AveragedCause result{weightiest, 0.0, 0.0};
     const double mean = first / weight;
-    result.cause.values.front() = mean;
+    result.values.front() = mean;
     result.sigma = std::sqrt(std::max(second / weight - mean * mean, 0.0));
     return result;
   }
@@ -139,7 +137,7 @@ struct SizeMoments {
 
 class Averaging {
  public:
-  Averaging(const belts::AnchorVector& about, const Analysis& a)
+  Averaging(const AnchorVector& about, const Analysis& a)
       : about_(about), a_(a), system_(a.system) {
     for (const Regressor& own : system_.regressors)
       share_of_effect_[own.cause.effect] += std::exp(own.log_prior);
@@ -157,10 +155,10 @@ class Averaging {
       if (weight > kLeastWeight) add(models[m], weight);
     }
     const std::vector<CauseId> reported = reported_causes();
-    const belts::AnchorVector mean = change_with(reported);
+    const AnchorVector mean = change_with(reported);
     AveragedAnchors result;
     for (const Part& part : parts_) {
-      const belts::AnchorVector off = part.change - mean;
+      const AnchorVector off = part.change - mean;
       result.covariance_mm2 += part.weight / total_ * (part.covariance + off * off.transpose());
     }
     result.anchors = about_ + mean;
@@ -177,7 +175,7 @@ class Averaging {
   struct Part {
     double weight = 0.0;
     std::vector<CauseId> causes;  ///< sorted
-    belts::AnchorVector change;
+    AnchorVector change;
     AnchorSquare covariance;
   };
 
@@ -197,8 +195,8 @@ class Averaging {
 
   /// Mean over the models with exactly these causes, or over all models if none has: anchors belong
   /// to the causes reported with them.
-  belts::AnchorVector change_with(const std::vector<CauseId>& causes) const {
-    belts::AnchorVector sum = belts::AnchorVector::Zero();
+  AnchorVector change_with(const std::vector<CauseId>& causes) const {
+    AnchorVector sum = AnchorVector::Zero();
     double weight = 0.0;
     for (const Part& part : parts_) {
       if (part.causes != causes) continue;
@@ -239,12 +237,12 @@ class Averaging {
     Estimate found = estimate(system_, marginalised, model.regressors, noise->second);
     weight *= std::exp(hold_to_usual_sizes(a_.known, system_, found));
     total_ += weight;
-    std::vector<CauseId> causes;
-    for (const int index : model.regressors) causes.push_back(system_.regressor(index).cause);
+    auto causes =
+        mapped(model.regressors, [&](int index) { return system_.regressor(index).cause; });
     sort_unique(causes);
-    parts_.push_back({weight, std::move(causes),
-                      found.setting_change.head<belts::kAnchorUnknowns>(),
-                      AnchorSquare(found.setting_covariance)});
+    parts_.push_back(
+        {weight, std::move(causes), found.setting_change.head<kAnchorUnknowns>(),
+         AnchorSquare(found.covariance.topLeftCorner<kAnchorUnknowns, kAnchorUnknowns>())});
     for (const auto k : each_index(model.regressors)) {
       const auto row = as_index(k);
       const Regressor& own = system_.regressor(model.regressors[k]);
@@ -257,7 +255,7 @@ class Averaging {
     }
   }
 
-  const belts::AnchorVector& about_;
+  const AnchorVector& about_;
   const Analysis& a_;
   const RegressorSystem& system_;
   std::map<const Effect*, double> share_of_effect_;
@@ -269,22 +267,18 @@ class Averaging {
 
 }  // namespace
 
-AveragedAnchors averaged_anchors(const belts::AnchorVector& about, const Analysis& analysis) {
+AveragedAnchors averaged_anchors(const AnchorVector& about, const Analysis& analysis) {
   return Averaging(about, analysis).averaged();
 }
 
 namespace {
 
-using belts::AnchorFit;
-using belts::FitDiagnostics;
-using belts::kAnchorUnknowns;
-
 /// Places, and the spread about them.
 void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, AnchorFit& frame) {
   const MeasuredBelts untaped = without_distances(without_causes);
-  belts::place_all(untaped, frame);
+  place_all(untaped, frame);
   frame.checks = std::max<Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
-  const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
+  const belts::ReadingLines lines = reading_lines(untaped, frame.state);
   double square = 0.0;
   for (const auto k : each_index(frame.counting)) {
     for (const Belt belt : kBelts) {
@@ -300,8 +294,8 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
 std::optional<MatrixXd> take_distances(const MeasuredBelts& without_causes,
                                        const AveragedAnchors& averaged, AnchorFit& frame) {
   const MeasuredBelts untaped = without_distances(without_causes);
-  const auto alone = belts::fit_anchors_from(untaped, frame.state, frame.counting);
-  const auto taped = belts::fit_anchors_from(without_causes, frame.state, frame.counting);
+  const auto alone = fit_anchors_from(untaped, frame.state, frame.counting);
+  const auto taped = fit_anchors_from(without_causes, frame.state, frame.counting);
   if (!alone || !taped || !taped->is_sound) return std::nullopt;
   constexpr Index kAll = kAnchorUnknowns + 1;
   const MatrixXd own = FitDiagnostics(untaped, *alone).precision();
@@ -317,19 +311,19 @@ std::optional<MatrixXd> take_distances(const MeasuredBelts& without_causes,
   const VectorXd found = factor.solve(sum);
   frame.state.anchors = found.head<kAnchorUnknowns>();
   frame.state.log_scale = found[kAnchorUnknowns];
-  belts::place_all(without_causes, frame);
+  place_all(without_causes, frame);
   return factor.inverse();
 }
 
 /// Clamped, because an average over models may be slightly outside the parameter's range.
 CauseInAnchorFit cause_in_fit(const AveragedCause& own) {
   CauseInAnchorFit result;
-  result.effect = own.cause.cause.effect->id;
-  result.side = name(own.cause.cause.side);
-  for (const auto i : each_index(own.cause.values)) {
-    const auto& parameter = own.cause.cause.effect->parameters[i];
+  result.effect = own.cause.effect->id;
+  result.side = name(own.cause.side);
+  for (const auto i : each_index(own.values)) {
+    const auto& parameter = own.cause.effect->parameters[i];
     result.parameters[std::string(parameter.name)] =
-        std::clamp(own.cause.values[i], parameter.lower, parameter.upper);
+        std::clamp(own.values[i], parameter.lower, parameter.upper);
   }
   result.sigma = own.sigma;
   result.probability = own.probability;
@@ -350,7 +344,7 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
   std::vector<SizedCause> sizes;
   for (const AveragedCause& own : averaged.causes) {
     causes.push_back(cause_in_fit(own));
-    sizes.push_back(own.cause);
+    sizes.push_back(own);
   }
   AnchorFit frame = analysis.frame;
   frame.counting = decided_counting(analysis);
@@ -369,8 +363,7 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(
     }
     covariance = *with_scale;
   }
-  BeltsFit fit =
-      belts::fit_report(without_causes, FitDiagnostics(without_causes, frame), covariance);
+  BeltsFit fit = fit_report(without_causes, FitDiagnostics(without_causes, frame), covariance);
   fit.causes = std::move(causes);
   fit.rms_mm = analysis.before.rms_mm;
   fit.half_left_out = prediction_by_halves(analysis.belts, frame, sizes);

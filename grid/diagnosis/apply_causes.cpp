@@ -27,8 +27,8 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
         cause.same_as, [](const auto& s) { return s.cause.effect->station == Station::paper; });
     // Chain or paper: neither is changed before the links are read or the tape is checked.
     if (paper_too && !scale_read && !a.options.accept_class) continue;
-    const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
-                            cause.cause.effect->station != Station::paper;
+    const bool in_machine =
+        !depends_on_visit(*cause.cause.effect) && cause.cause.effect->station != Station::paper;
     auto& into = in_machine ? into_machine : diagnosis.data_corrections;
     into.push_back(applied(cause));
     into.back().probability = cause.probability;

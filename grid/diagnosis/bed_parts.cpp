@@ -17,7 +17,6 @@
 #include "grid/plane_vectors.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -52,8 +51,7 @@ std::vector<UnitPlace> places_of_units(const RegressorSystem& system) {
     const auto& places = system.units[u].places;
     if (places.empty()) continue;
     Vector2d sum = Vector2d::Zero();
-    for (const observation::PlaceColumns& own : places)
-      sum += vector_of(system.places[own.place].mark);
+    for (const PlaceColumns& own : places) sum += vector_of(system.places[own.place].mark);
     result.push_back({u, sum / as_double(places.size())});
   }
   return result;
@@ -152,7 +150,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
     of_part[p] = downdating.probabilities_without(parts[p].units, CountAs::all);
   });
   std::map<ModelKey, double> weights;  // of models with a pattern
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (const auto p : each_index(parts)) {
     for (const auto k : each_index(models)) {
       if (models[k]->discrepancy >= 0) weights[key_of(*models[k])] += of_part[p][k];
     }
@@ -271,8 +269,7 @@ std::string words_of_quarters(const Diagnosis& d) {
   for (const PartFinding& part : d.bed_parts) {
     if (!denies(d, part)) continue;
     const auto own = answer_without(part);
-    auto* same =
-        find_where(answers, [&](const OtherAnswer& other) { return other.words == own.first; });
+    auto* same = find_where(answers, having(&OtherAnswer::words, own.first));
     OtherAnswer& answer = same != nullptr ? *same : answers.emplace_back(OtherAnswer{own.first});
     answer.least = std::min(answer.least, own.second);
     answer.most = std::max(answer.most, own.second);
@@ -294,7 +291,7 @@ std::string words_of_quarters(const Diagnosis& d) {
 std::vector<std::string> words_of_sessions(const Diagnosis& d) {
   std::vector<std::string> result;
   if (d.sessions.empty()) return result;
-  for (std::size_t k = 0; k < d.sessions.front().named.size(); ++k) {
+  for (const auto k : each_index(d.sessions.front().named)) {
     std::vector<std::string> with, without;
     for (const PartFinding& session : d.sessions) {
       const Hypothesis& own = session.named[k];

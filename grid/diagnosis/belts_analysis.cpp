@@ -6,7 +6,6 @@
 #include "grid/failed.hpp"
 #include "grid/progress.hpp"
 #include "grid/statistics.hpp"
-#include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -95,7 +94,7 @@ BeltRules::BeltRules(BeltsAnalysis& belts) : belts_(belts) {
 }
 
 tl::expected<void, DiagnosisFailure> BeltRules::linearise(Analysis& a) const {
-  const belts::FrameState& frame = belts_.frame.state;
+  const FrameState& frame = belts_.frame.state;
   a.session = observations_of(belts_.belts, frame, belts_.sigma_mm);
   a.session.fewest_units = kFewestPlaces;
   a.system = system_of(belts_.belts, frame, a.session, a.candidates.testable, a.known);
@@ -103,7 +102,7 @@ tl::expected<void, DiagnosisFailure> BeltRules::linearise(Analysis& a) const {
 }
 
 ComparisonOptions BeltRules::compared(const Analysis& a, bool last) const {
-  ComparisonOptions options{.given_cause = a.options.given_cause};
+  ComparisonOptions options;
   options.search = kSearch;
   // Before the last round, every second strength with the best set of outliers is enough.
   options.search.sets_given = last ? 2 : 1;
@@ -129,7 +128,7 @@ bool BeltRules::refit(Analysis& a) const {
 }
 
 std::optional<RegressorSystem> BeltRules::tried_with_noise(const Analysis& a) const {
-  const belts::FrameState& frame = belts_.alone.state;
+  const FrameState& frame = belts_.alone.state;
   RegressorSystem system =
       system_of(belts_.belts, frame, observations_of(belts_.belts, frame, belts_.sigma_mm),
                 a.candidates.testable);
@@ -149,9 +148,9 @@ void BeltRules::restrain(bool detected, Analysis& a) const {
     a.decision.verdict = Verdict::nothing_found;
 }
 
-belts::Counting decided_counting(const Analysis& a) {
+Counting decided_counting(const Analysis& a) {
   const Flags& rejected = marginalised_system(a).outliers;
-  belts::Counting counting(a.system.places.size());
+  Counting counting(a.system.places.size());
   for (const auto u : each_index(counting)) {
     for (const Belt belt : kBelts) {
       counting[a.system.places[u].place][belt] = !rejected[4 * u + as_size(belt)];
@@ -167,15 +166,14 @@ std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const A
     causes.push_back(d);
     causes.back().values.front() = size_at(d, a.estimate.coefficient(as_index(k)));
   }
-  belts::AnchorFit from = belts.frame;
+  AnchorFit from = belts.frame;
   from.counting = decided_counting(a);
   return fit_given_causes(belts.belts, std::move(causes), from);
 }
 
 Analysis analysis_of_laws(const BeltsAnalysis& a) {
   Analysis own = a;
-  const bool ordered =
-      any_of(a.belts.points, [](const BeltPoint& point) { return point.order.has_value(); });
+  const bool ordered = any_of(a.belts.points, &BeltPoint::order);
   own.system.discrepancies = &length_discrepancies_of_laws(ordered);
   return own;
 }

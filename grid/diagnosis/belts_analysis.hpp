@@ -4,15 +4,81 @@
 /// the noise is not stated, and yielding under the pull is expected. Private to grid/diagnosis.
 #pragma once
 
+#include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
 #include "grid/belts/measured_belts.hpp"
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/regressors.hpp"
+#include "interp/eigen.hpp"
+#include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+// Four belts as a linearised system, and their anchors and places with causes.
+//
+// A place leaves two checks of its four readings, a unit of two rows (observation/belt_lengths.hpp). A
+// single reading spoils one direction of them, an outlier group each; two readings of a place take
+// both. The five anchor coordinates are the settings, without priors.
+//
+// With causes, the frame is fitted to corrected readings, and the causes' sizes given the frame, until
+// both converge:
+//
+//   e, A  rows of the readings that count, places projected out, and what anchors do to them (1 of
+//         linearised_system.hpp)
+//   D     what a millimetre of each reading adds to them
+//   g_j   d(read)/d(size of cause j), a secant about the size at hand
+//
+//   min |e - A da - sum_j D g_j ds_j|^2                                                     (1)
+//
+// Source: G. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413, for unknowns that are
+// projected out.
+
+/// As effects of the belts' table.
+std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>& causes);
+
+/// What the causes add to the printed lengths, 4 N numbers in mm in the order of row_of(); 0 for
+/// readings that such a machine cannot give.
+VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
+                  const FrameState& state);
+
+/// The readings minus that.
+[[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
+                                            const std::vector<SizedCause>& causes,
+                                            const FrameState& state);
+
+/// The readings that count, by default all, about a state; units are points of which three or four
+/// count. A point that the machine cannot reach there (a gross error) is linearised about the frame's
+/// middle. \pre no distances.
+ObservationSet observations_of(const MeasuredBelts& belts, const FrameState& state, double sigma_mm,
+                               const Counting& counting = {});
+
+/// Converged anchors, places and sizes; `belts` are the readings corrected for the causes.
+struct FitGivenCauses : belts::Refitted {
+  std::vector<SizedCause> causes;
+};
+/// From a nearby state; whole-number sizes are fixed, others stay in their ranges. Empty if it does
+/// not converge. \pre no distances.
+std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
+                                               std::vector<SizedCause> causes,
+                                               const AnchorFit& from);
+
+/// What would reveal the causes that these data cannot show.
+Candidates candidates(const MeasuredBelts& belts);
+
+/// The system of readings that all count, about this state, with a regressor for each of `causes`
+/// at every place where it may set in. Regressors of known causes are secants at their values.
+RegressorSystem system_of(const MeasuredBelts& belts, const FrameState& state,
+                          const ObservationSet& session, const std::vector<CauseId>& causes = {},
+                          const std::vector<SizedCause>& known = {});
+
+/// What a cause adds to the checks of a system of these belts about this state, whitened.
+VectorXd column_of(const MeasuredBelts& belts, const FrameState& state,
+                   const RegressorSystem& system, const SizedCause& cause);
 
 // Anchors of four belts averaged over the models of a comparison, weighted by probability:
 // each cause of yielding under the pull, with every other cause and sets of causes, with and
@@ -35,16 +101,15 @@ namespace chaintrue::grid::diagnosis {
 // Sci. 14 (1999) 382, equations 1 and 2.
 
 /// A cause with its values, the sigma of the first, and its probability.
-struct AveragedCause {
-  SizedCause cause;
+struct AveragedCause : SizedCause {
   double sigma = 0.0;
   double probability = 0.0;
 };
 
 struct AveragedAnchors {
-  belts::AnchorVector anchors = belts::AnchorVector::Zero();
-  Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns> covariance_mm2 =
-      Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns>::Zero();
+  AnchorVector anchors = AnchorVector::Zero();
+  Eigen::Matrix<double, kAnchorUnknowns, kAnchorUnknowns> covariance_mm2 =
+      Eigen::Matrix<double, kAnchorUnknowns, kAnchorUnknowns>::Zero();
   /// The likeliest cause of yielding under the pull, and all others that are more likely than not;
   /// sizes averaged over the models that contain them.
   std::vector<AveragedCause> causes;
@@ -52,14 +117,14 @@ struct AveragedAnchors {
 
 /// \pre the system is linear about these anchors. \throws std::invalid_argument for a comparison without a
 /// model.
-AveragedAnchors averaged_anchors(const belts::AnchorVector& about, const Analysis& analysis);
+AveragedAnchors averaged_anchors(const AnchorVector& about, const Analysis& analysis);
 
 struct BeltsAnalysis : Analysis {
   MeasuredBelts measured;
   BeltsFit before;           ///< the anchors alone, by fit_belts()
   MeasuredBelts belts;       ///< without distances, which carry no information about a cause
-  belts::AnchorFit alone;    ///< anchors and places without a cause
-  belts::AnchorFit frame;    ///< about which the system is linear, with the known causes
+  AnchorFit alone;           ///< anchors and places without a cause
+  AnchorFit frame;           ///< about which the system is linear, with the known causes
   double sigma_mm = 0.0;     ///< of one belt's reading, as used for whitening
   AveragedAnchors averaged;  ///< the same for a fit and a diagnosis of the same belts
 };
@@ -88,7 +153,7 @@ class BeltRules final : public AnalysisRules {
 std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& decided);
 
 /// For each reading, whether the decision keeps it.
-belts::Counting decided_counting(const Analysis& analysis);
+Counting decided_counting(const Analysis& analysis);
 
 /// The analysis with patterns of single belts added, for weighing laws.
 Analysis analysis_of_laws(const BeltsAnalysis& analysis);
@@ -102,7 +167,7 @@ Analysis analysis_of_laws(const BeltsAnalysis& analysis);
 /// Prediction of the lower belts of each half of the places by a fit to the other, including the
 /// causes' sizes; empty with too few places.
 std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                   const belts::AnchorFit& frame,
+                                                   const AnchorFit& frame,
                                                    const std::vector<SizedCause>& causes);
 
 /// Rejected readings (a place with more than one is listed as a whole), the unexplained pattern if the

@@ -27,7 +27,7 @@ double shape_error_mm(const BeltMachine& by, const BeltMachine& real,
     const auto tl = model::belts::read_belt(real, effects, {Belt::tl, {}, kAfterAll}, at);
     const auto tr = model::belts::read_belt(real, effects, {Belt::tr, {}, kAfterAll}, at);
     if (!tl || !tr) continue;
-    if (const auto believed = model::place_of_upper(by, tl->value, tr->value))
+    if (const auto believed = place_of_upper(by, tl->value, tr->value))
       rows.emplace_back(at.x_mm, at.y_mm, believed->x_mm - at.x_mm, believed->y_mm - at.y_mm);
   }
   if (rows.size() < 2) return 0.0;
@@ -50,10 +50,10 @@ double uncertain_mm(const BeltMachine& machine, const MatrixXd& covariance,
   const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
   for (const Index i : each_below(covariance.cols())) {
-    const belts::AnchorVector moved =
-        belts::anchors_of(machine) +
+    const AnchorVector moved =
+        anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
-    const double own = shape_error_mm(belts::with_anchors(machine, moved), machine, {}, places);
+    const double own = shape_error_mm(with_anchors(machine, moved), machine, {}, places);
     square += own * own;
   }
   return std::sqrt(square);
@@ -75,10 +75,10 @@ ToolError tool_error(const BeltsAnalysis& a, const FitGivenCauses& given,
 
 /// For all readings, including rejected ones.
 double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
-  belts::AnchorFit from = given.frame;
-  from.counting.assign(belts.points.size(), belts::kAllBelts);
+  AnchorFit from = given.frame;
+  from.counting.assign(belts.points.size(), kAllBelts);
   const FitGivenCauses at = fit_given_causes(belts, given.causes, from).value_or(given);
-  const VectorXd left = belts::reading_lines(at.belts, at.frame.state).residual_mm;
+  const VectorXd left = reading_lines(at.belts, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / as_double(left.size()));
 }
 
@@ -89,10 +89,10 @@ std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts,
   if (belts.distances.empty()) return std::nullopt;
   MeasuredBelts taped = given.belts;
   taped.distances = belts.distances;
-  const auto fitted = belts::fit_anchors_from(taped, given.frame.state, given.frame.counting);
+  const auto fitted = fit_anchors_from(taped, given.frame.state, given.frame.counting);
   if (!fitted) return std::nullopt;
-  const belts::FitDiagnostics view(taped, *fitted);
-  return belts::fit_report(taped, view, view.covariance()).scale;
+  const FitDiagnostics view(taped, *fitted);
+  return fit_report(taped, view, view.covariance()).scale;
 }
 
 /// Converged anchors, places and sizes with the causes of the decision.
@@ -104,10 +104,10 @@ FitGivenCauses explained(const BeltsAnalysis& a) {
 }
 
 BeltsFindings findings_of(const BeltsAnalysis& a, const FitGivenCauses& given,
-                          const belts::FitDiagnostics& view) {
-  const belts::AnchorFit& frame = given.frame;
+                          const FitDiagnostics& view) {
+  const AnchorFit& frame = given.frame;
   BeltsFindings found;
-  found.machine = belts::with_anchors(a.belts.machine, a.averaged.anchors);
+  found.machine = with_anchors(a.belts.machine, a.averaged.anchors);
   for (const auto i : each_index(found.coordinates)) {
     const AnchorCoordinate& before = a.before.coordinates[i];
     const auto at = as_index(i);
@@ -157,7 +157,7 @@ Unexplained pattern_of_belts(const BeltsAnalysis& a) {
 }
 
 /// Residual chi^2 of a place's other readings at their best position.
-double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
+double left_without(const FitDiagnostics& view, std::size_t point, Belt without) {
   VectorXd residual(3);
   MatrixXd by_place(3, 2);
   Index row = 0;
@@ -173,8 +173,7 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
 
 /// The belt that may be wrong instead: on the line between two anchors only the other two belts
 /// determine the distance from it, so the readings cannot show which of them is wrong.
-std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::size_t point,
-                                        Belt bad) {
+std::optional<Belt> equally_likely_belt(const FitDiagnostics& view, std::size_t point, Belt bad) {
   // Odds of twenty to one distinguish them.
   const double limit = left_without(view, point, bad) + 2.0 * std::log(20.0);
   std::optional<Belt> other;
@@ -190,7 +189,7 @@ std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::
 }
 
 /// Rejected readings; a place with more than one is listed as a whole.
-std::vector<Outlier> bad_belts(const FitGivenCauses& given, const belts::FitDiagnostics& view) {
+std::vector<Outlier> bad_belts(const FitGivenCauses& given, const FitDiagnostics& view) {
   std::vector<Outlier> result;
   for (const auto k : each_index(given.belts.points)) {
     std::vector<Belt> bad;
@@ -218,16 +217,15 @@ std::vector<Outlier> bad_belts(const FitGivenCauses& given, const belts::FitDiag
 }  // namespace
 
 std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                   const belts::AnchorFit& frame,
+                                                   const AnchorFit& frame,
                                                    const std::vector<SizedCause>& causes) {
-  return belts::predict_by_halves(belts, frame, [&](const belts::AnchorFit& from) {
-    return fit_given_causes(belts, causes, from);
-  });
+  return predict_by_halves(
+      belts, frame, [&](const AnchorFit& from) { return fit_given_causes(belts, causes, from); });
 }
 
 void take_belts_findings(const BeltsAnalysis& a, Diagnosis& d) {
   const FitGivenCauses given = explained(a);
-  const belts::FitDiagnostics view(given.belts, given.frame);
+  const FitDiagnostics view(given.belts, given.frame);
   d.unexplained = pattern_of_belts(a);
   d.outliers = bad_belts(given, view);
   d.belts = findings_of(a, given, view);

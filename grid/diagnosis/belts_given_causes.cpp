@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 #include "interp/eigen.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
 
 /// Derivative of the readings by each, mm per unit.
 MatrixXd value_columns(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
-                       const belts::FrameState& state, const std::vector<FreeValue>& free) {
+                       const FrameState& state, const std::vector<FreeValue>& free) {
   // Share of a value's usual spread, for difference quotients.
   constexpr double kStep = 0.05;
   MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
@@ -62,7 +62,7 @@ bool moved(const VectorXd& change, const std::vector<FreeValue>& free,
   for (const auto f : each_index(free)) {
     const EffectParameter& parameter = *free[f].parameter;
     double& value = causes[free[f].cause].values[free[f].value];
-    double next = value + change[belts::kAnchorUnknowns + as_index(f)];
+    double next = value + change[kAnchorUnknowns + as_index(f)];
     if (parameter.name.ends_with("_rad")) {
       next = std::remainder(next, 2.0 * std::numbers::pi);
     } else {
@@ -76,11 +76,11 @@ bool moved(const VectorXd& change, const std::vector<FreeValue>& free,
 
 /// (1), in millimetres: changes of the five anchor coordinates, then of the values.
 VectorXd least_squares(const FitGivenCauses& given, const MatrixXd& columns) {
-  const belts::AnchorFit& frame = given.frame;
+  const AnchorFit& frame = given.frame;
   const ObservationSet set = observations_of(given.belts, frame.state, 1.0, frame.counting);
-  const RegressorSystem system = linearise(set, estimation::stated_state(set)).value();
-  MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
-  design.leftCols<belts::kAnchorUnknowns>() = system.by_setting;
+  const RegressorSystem system = linearise(set, stated_state(set)).value();
+  MatrixXd design(system.e.size(), kAnchorUnknowns + columns.cols());
+  design.leftCols<kAnchorUnknowns>() = system.by_setting;
   for (const auto u : each_index(system.units)) {
     const SystemUnit& unit = system.units[u];
     design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
@@ -92,11 +92,11 @@ VectorXd least_squares(const FitGivenCauses& given, const MatrixXd& columns) {
 }  // namespace
 
 VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
-                  const belts::FrameState& state) {
+                  const FrameState& state) {
   VectorXd added = VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
   const auto effects = resolved(causes);
-  const BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
+  const BeltMachine machine = with_anchors(belts.machine, state.anchors);
   const std::optional<BeltPull> reference = reference_pull(belts);
   for (const Belt belt : kBelts) {
     const bool acts =
@@ -116,7 +116,7 @@ VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& cau
 }
 
 MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
-                              const belts::FrameState& state) {
+                              const FrameState& state) {
   MeasuredBelts without_causes = belts;
   const VectorXd added = added_by(belts, causes, state);
   for (const auto k : each_index(without_causes.points)) {
@@ -126,16 +126,16 @@ MeasuredBelts without_effects(const MeasuredBelts& belts, const std::vector<Size
   return without_causes;
 }
 
-ObservationSet observations_of(const MeasuredBelts& belts, const belts::FrameState& state,
-                               double sigma_mm, const belts::Counting& counting) {
-  const auto mechanism = belts::mechanism_at(belts, state);
+ObservationSet observations_of(const MeasuredBelts& belts, const FrameState& state, double sigma_mm,
+                               const Counting& counting) {
+  const auto mechanism = mechanism_at(belts, state);
   std::vector<FramePoint> about = state.places;
   for (FramePoint& at : about) {
     if (mechanism->predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
     const ToolPosition middle = mechanism->extent().centre();
     at = {middle.x_mm, middle.y_mm};
   }
-  const belts::Counting all(belts.points.size(), belts::kAllBelts);
+  const Counting all(belts.points.size(), kAllBelts);
   return estimation::observation_set(
       {},
       {std::make_shared<const observation::BeltLengthReadings>(
@@ -145,7 +145,7 @@ ObservationSet observations_of(const MeasuredBelts& belts, const belts::FrameSta
 
 std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
                                                std::vector<SizedCause> causes,
-                                               const belts::AnchorFit& from) {
+                                               const AnchorFit& from) {
   // Sizes and frame are nearly linear in each other: three rounds suffice except for zeros of an
   // arm's length, which take six.
   constexpr int kMostRounds = 12;
@@ -156,7 +156,7 @@ std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
   take_out();
   const std::vector<FreeValue> free = free_values(given.causes);
   for (const int round : each_below(kMostRounds)) {
-    auto frame = belts::fit_anchors_from(given.belts, given.frame.state, given.frame.counting);
+    auto frame = fit_anchors_from(given.belts, given.frame.state, given.frame.counting);
     if (!frame) return std::nullopt;
     given.frame = *std::move(frame);
     take_out();

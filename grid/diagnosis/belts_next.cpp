@@ -47,7 +47,7 @@ class NextPlaces {
  public:
   /// Belts are pulled `times` as hard as at the measured places.
   explicit NextPlaces(const BeltsAnalysis& a, double times = 1.0) : a_(a), times_(times) {
-    belts.machine = belts::with_anchors(a.belts.machine, a.frame.state.anchors);
+    belts.machine = with_anchors(a.belts.machine, a.frame.state.anchors);
     belts.reference_pull = reference_pull(a.belts).value_or(BeltPull{});
     state.anchors = a.frame.state.anchors;
     for (const BeltPoint& point : a.belts.points) {
@@ -58,7 +58,7 @@ class NextPlaces {
   /// True if the machine reaches it. The default pull is the one that sizes refer to.
   bool add(FramePoint at, const std::optional<std::vector<Belt>>& pulled,
            const std::optional<BeltPull>& pull = std::nullopt) {
-    const auto lengths = model::lengths_at(belts.machine, at);
+    const auto lengths = lengths_at(belts.machine, at);
     if (!lengths) return false;
     BeltPoint point;
     point.lengths_mm = *lengths;
@@ -73,8 +73,7 @@ class NextPlaces {
 
   /// The place added last; its rows are filled in by the prediction.
   void propose(MeasurementKind kind, std::string what, BedPoint command) {
-    Candidate candidate{
-        {kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
+    Candidate candidate{{kind, std::move(what), "", identity_placement(command), 0.0}, {}, 2};
     candidate.measurement.pulled = belts.points.back().pulled.value_or(std::vector<Belt>{});
     candidates.push_back(std::move(candidate));
   }
@@ -94,7 +93,7 @@ class NextPlaces {
   }
 
   MeasuredBelts belts;  ///< the machine with the anchors of the state
-  belts::FrameState state;
+  FrameState state;
   std::optional<int> next_visit;
   std::vector<Candidate> candidates;  ///< a point each, or none
 
@@ -106,7 +105,7 @@ class NextPlaces {
 /// On a raster over the frame; coarser if each place can be reached in four ways.
 void add_places(NextPlaces& next) {
   const BeltMachine& machine = next.belts.machine;
-  const FramePoint centre = model::centre_of(machine);
+  const FramePoint centre = centre_of(machine);
   const auto& anchors = machine.anchors;
   const double left = 0.5 * (anchors.tl.x_mm + anchors.bl.x_mm);
   const double right = 0.5 * (anchors.tr.x_mm + anchors.br.x_mm);
@@ -127,7 +126,7 @@ void add_places(NextPlaces& next) {
 
 void add_revisits(const BeltsAnalysis& a, const PointIndices& indices, NextPlaces& next) {
   if (!next.next_visit) return;
-  const FramePoint centre = model::centre_of(next.belts.machine);
+  const FramePoint centre = centre_of(next.belts.machine);
   const std::size_t count = a.belts.points.size();
   for (const std::size_t i : each_below(kRevisits)) {
     const std::size_t k = i * (count - 1) / (kRevisits - 1);

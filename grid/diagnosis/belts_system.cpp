@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +60,8 @@ std::vector<int> visits_to_set_in(const MeasuredBelts& belts) {
 
 std::vector<int> thinned(const std::vector<int>& visits) {
   if (visits.size() <= kVisits) return visits;
-  std::vector<int> few;
-  for (const std::size_t i : each_below(kVisits))
-    few.push_back(visits[i * visits.size() / kVisits]);
-  return few;
+  return mapped(each_below(kVisits),
+                [&](std::size_t i) { return visits[i * visits.size() / kVisits]; });
 }
 
 /// The visits between the neighbours of one of the thinned visits.
@@ -89,7 +87,7 @@ std::vector<Regressor> tried_of(const CauseId& cause, const SizedCause* found,
   const std::size_t parameters = effect.parameters.size();
   const bool known = found != nullptr;
   std::vector<int> set_in = parameters > 1 ? thinned(visits) : std::vector<int>{0};
-  Regressor own{known ? *found : SizedCause{cause, model::effects::nominal_values(effect)}};
+  Regressor own{known ? *found : SizedCause{cause, nominal_values(effect)}};
   if (known && parameters > 1)
     append_all(set_in, about(visits, static_cast<int>(own.values.back())));
   sort_unique(set_in);
@@ -128,7 +126,7 @@ std::vector<Regressor> tried_of(const CauseId& cause, const SizedCause* found,
 
 /// Columns of one cause. From its first visit on a column does not depend on that visit, so one
 /// evaluation serves all visits.
-ColumnOf columns_of(const MeasuredBelts& belts, const belts::FrameState& state,
+ColumnOf columns_of(const MeasuredBelts& belts, const FrameState& state,
                     const RegressorSystem& system) {
   return [&, from_the_start = std::map<std::vector<double>, VectorXd>()](SizedCause cause) mutable {
     if (cause.values.size() == 1) return column_of(belts, state, system, cause);
@@ -186,11 +184,10 @@ Candidates candidates(const MeasuredBelts& belts) {
 namespace {
 
 /// `index` numbers the file's points.
-SystemPlace place_of(const MeasuredBelts& belts, const belts::FrameState& state,
-                     std::size_t index) {
+SystemPlace place_of(const MeasuredBelts& belts, const FrameState& state, std::size_t index) {
   const BeltPoint& point = belts.points[index];
   const FramePoint where = state.places[index];
-  const BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
+  const BeltMachine frame = with_anchors(belts.machine, state.anchors);
   SystemPlace place;
   place.place = index;
   place.mark = {where.x_mm, where.y_mm};
@@ -206,34 +203,33 @@ SystemPlace place_of(const MeasuredBelts& belts, const belts::FrameState& state,
 
 }  // namespace
 
-RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& state,
+RegressorSystem system_of(const MeasuredBelts& belts, const FrameState& state,
                           const ObservationSet& session, const std::vector<CauseId>& causes,
                           const std::vector<SizedCause>& known) {
   // Two rows more than anchors are needed; otherwise no degrees of freedom remain.
   constexpr Index kFewestChecks = 3;
   // Two bad readings at a place, or at neighbouring places, can mask each other.
   constexpr std::size_t kBeyondTheBest = 8;
-  RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
+  RegressorSystem system = linearise(session, stated_state(session)).value();
   bool ordered = false;
   system.groups.clear();
   for (const auto u : each_index(system.units)) {
     SystemUnit& unit = system.units[u];
-    for (Index belt = 0; belt < 4; ++belt)
+    for (const Index belt : each_below(4))
       system.groups.push_back({unit.first_row, 2, Vector2d(unit.by_reading.col(belt))});
     unit.places.push_back({u, {}});
     system.places.push_back(place_of(belts, state, session.units[u].index));
     ordered = ordered || system.places[u].ordered;
   }
   system.noise_dof = kNoiseDof;
-  system.limits = {.fewest_rows = belts::kAnchorUnknowns + kFewestChecks,
+  system.limits = {.fewest_rows = kAnchorUnknowns + kFewestChecks,
                    .beyond_the_best = kBeyondTheBest};
   system.prior = prior_of_belts();
   system.discrepancies = &length_discrepancies(ordered);
   system.g = RegressorColumns(system.e.size());
   const std::vector<int> visits = visits_to_set_in(belts);
   for (const CauseId& cause : causes) {
-    const SizedCause* found =
-        find_where(known, [&cause](const SizedCause& own) { return own.cause == cause; });
+    const SizedCause* found = find_where(known, having(&SizedCause::cause, cause));
     const ColumnOf column = columns_of(belts, state, system);
     for (Regressor& own : tried_of(cause, found, visits, system.prior))
       add_regressor(std::move(own), column, system);
@@ -248,7 +244,7 @@ RegressorSystem system_of(const MeasuredBelts& belts, const belts::FrameState& s
   return system;
 }
 
-VectorXd column_of(const MeasuredBelts& belts, const belts::FrameState& state,
+VectorXd column_of(const MeasuredBelts& belts, const FrameState& state,
                    const RegressorSystem& system, const SizedCause& cause) {
   const VectorXd added = added_by(belts, {cause}, state);
   VectorXd column(system.e.size());

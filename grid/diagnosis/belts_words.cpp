@@ -6,8 +6,8 @@
 
 #include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/belts_analysis.hpp"
+#include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/laws.hpp"
-#include "grid/diagnosis/words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/belt_effects.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 std::string end_of(const BeltEnd& end, const PointIndices& indices) {
   if (const auto* index = std::get_if<std::size_t>(&end))
     return fmt::format("{}", index_in_file(indices, *index));
-  if (const auto* belt = std::get_if<Belt>(&end)) return std::string(model::name(*belt));
+  if (const auto* belt = std::get_if<Belt>(&end)) return std::string(name(*belt));
   const BedPoint at = std::get<CutHole>(end).commanded;
   return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
 }
@@ -90,7 +90,7 @@ std::string sentence(const Diagnosis& d) {
 std::string left_out_arms(const BeltMachine& machine, const Diagnosis& d) {
   // Error of arm and extension: a tape measures the arm better.
   constexpr double kEqualWithin = 0.1;
-  const double reach = model::reach_mm(machine);
+  const double reach = reach_mm(machine);
   for (const Cause& c : d.causes) {
     if (c.cause.effect != &model::belts::belt_zero || c.cause.side != EffectSide::all) continue;
     const double offset = c.parameters.front().value;
@@ -163,7 +163,7 @@ void advise(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
         fmt::format("Inspect the {} belt and everything that it runs over for something with this "
                     "place or period. Then let the machine measure other places to confirm or rule "
                     "it out.",
-                    model::words(belt_of(law->enters).value())));
+                    words(belt_of(law->enters).value())));
   }
   if (next.is_open) steps.push_back(next_words(next, d));
   if (d.belts->scale) return;

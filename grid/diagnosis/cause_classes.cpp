@@ -8,7 +8,6 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -44,6 +43,7 @@ struct Representative {
   VectorXd stated;
   CauseId cause;
   bool fixed = false;
+  bool mixed = false;  ///< its class has whole numbers and any amounts
 };
 
 /// The best model in which one of these acts together with the free one.
@@ -147,7 +147,6 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
       range_of_settings(system, visible(marginalised.kept(system.by_setting.leftCols(settings))));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
-  Flags mixed;  // whole numbers and any amounts
   for (const auto& [cause, column] : best_regressors(system, marginalised)) {
     Representative own{visible(marginalised.kept(system.g.col(column))),
                        reduced(marginalised, system.g.col(column)), cause,
@@ -155,16 +154,15 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
     const double whole = own.free.norm();
     linear::add_product(own.free, -1.0, basis, linear::inner(basis, own.free));
     // If the settings absorb a signature, only rounding would be compared.
-    const bool absorbed = own.free.norm() < kAbsorbed * whole;
-    std::size_t home = classes.size();
-    for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {
-      if (one_class(system, comparison, own, first[k])) home = k;
-    }
-    if (home < classes.size()) mixed[home] = mixed[home] || own.fixed != first[home].fixed;
-    if (home == classes.size()) {
-      mixed.push_back(false);
+    if (own.free.norm() < kAbsorbed * whole) own.free.setZero();
+    auto* same = find_where(first, [&](const Representative& other) {
+      return one_class(system, comparison, own, other);
+    });
+    const std::size_t home = same != nullptr ? as_size(same - first.data()) : first.size();
+    if (same != nullptr) {
+      same->mixed = same->mixed || own.fixed != same->fixed;
+    } else {
       classes.emplace_back();
-      if (absorbed) own.free.setZero();
       first.push_back(std::move(own));
     }
     classes[home].push_back(cause);
@@ -172,7 +170,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   for (const auto k : each_index(classes)) {
     CauseClass& members = classes[k];
     std::stable_partition(members.begin(), members.end(), std::not_fn(on_paper));
-    if (mixed[k]) put_likelier_first(system, comparison, members);
+    if (first[k].mixed) put_likelier_first(system, comparison, members);
   }
   return classes;
 }

@@ -111,8 +111,7 @@ struct ActingCause {
 
 bool has_order(const MeasuredFile& file) {
   const MeasuredGrid* grid = file.grid();
-  return grid != nullptr &&
-         all_of(grid->points, [](const MeasuredPoint& point) { return point.order.has_value(); });
+  return grid != nullptr && all_of(grid->points, &MeasuredPoint::order);
 }
 
 /// Its place, if a step or bend depends on it and it is uncertain; else null.
@@ -160,7 +159,7 @@ Measured with_effects(const Measured& measured, const std::vector<ActingCause>& 
           if (!own.machine) return;
           auto& effects = own.machine->effects;
           for (const ActingCause& acting : causes) {
-            if (has_visits || !model::effects::depends_on_visit(*acting.cause.cause.effect))
+            if (has_visits || !depends_on_visit(*acting.cause.cause.effect))
               append_all(effects, acting.effects);
           }
         },
@@ -326,7 +325,7 @@ bool shows_scale(const ExtraReading& reading) {
 
 AppliedEffect applied(const Cause& cause) {
   AppliedEffect effect{
-      std::string(cause.cause.effect->id), std::string(model::effects::name(cause.cause.side)), {}};
+      std::string(cause.cause.effect->id), std::string(name(cause.cause.side)), {}};
   for (const ParameterEstimate& p : cause.parameters) effect.parameters[p.parameter] = p.value;
   return effect;
 }

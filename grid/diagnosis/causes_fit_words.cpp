@@ -36,12 +36,10 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   if (!fit.not_weighed.empty())
     sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");
   if (!fit.built_on.empty()) {
-    std::vector<std::string> parts;
-    for (const Cause& cause : fit.built_on) parts.push_back(worded(cause));
     sentences.push_back(fmt::format(
         "Found and used in the map: {}. In parts of the bed left out of the fit the "
         "map is off by {:.2f} mm rms; without {} it would be {:.2f} mm.",
-        joined(parts, "and"), fit.held_out->with_causes_mm,
+        joined(mapped(fit.built_on, worded), "and"), fit.held_out->with_causes_mm,
         fit.built_on.size() == 1 ? "this cause" : "these causes", fit.held_out->plain_mm));
   }
   if (sentences.empty() && fit.offered.empty())

@@ -115,17 +115,13 @@ class Decider {
   }
 
   void take(const Grouped& grouped) {
-    const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_discrepancy;
-    if (model == nullptr) return;
-    result_.regressors = model->regressors;
-    result_.marginalised = model->marginalised;
-    if (grouped.with_discrepancy != nullptr)
-      result_.best_discrepancy = grouped.with_discrepancy->discrepancy;
+    const CandidateModel* given = grouped.with_discrepancy;
     result_.discrepancy_left = grouped.discrepancy > 0.5 * grouped.probability;
-    if (result_.discrepancy_left) {
-      result_.regressors = grouped.with_discrepancy->regressors;
-      result_.marginalised = grouped.with_discrepancy->marginalised;
-    }
+    const CandidateModel& model =
+        result_.discrepancy_left || grouped.best == nullptr ? *given : *grouped.best;
+    result_.regressors = model.regressors;
+    result_.marginalised = model.marginalised;
+    if (given != nullptr) result_.best_discrepancy = given->discrepancy;
   }
 
   /// For several causes those more likely than not are reported; a partner that could be any of many
@@ -302,9 +298,7 @@ bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
 }  // namespace
 
 std::vector<CauseId> Decision::leaders() const {
-  std::vector<CauseId> causes;
-  for (const std::size_t index : listed) causes.push_back(classes[index].front());
-  return causes;
+  return mapped(listed, [&](std::size_t index) { return classes[index].front(); });
 }
 
 std::size_t Decision::class_of(const CauseId& cause) const {
@@ -314,8 +308,7 @@ std::size_t Decision::class_of(const CauseId& cause) const {
 }
 
 double Decision::probability_of(std::size_t index) const {
-  const auto* one =
-      find_where(marginal, [&](const ClassProbability& own) { return own.index == index; });
+  const auto* one = find_where(marginal, having(&ClassProbability::index, index));
   return one != nullptr ? one->probability : 0.0;
 }
 

@@ -31,15 +31,12 @@
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(Verdict verdict) {
-  constexpr std::string_view kNames[] = {
-      "named",      "named_set",    "several_causes", "unknown_pattern", "noise_larger_than_stated",
-      "bad_points", "nothing_found"};
-  return kNames[as_size(verdict)];
+  return word_of(verdict, {"named", "named_set", "several_causes", "unknown_pattern",
+                           "noise_larger_than_stated", "bad_points", "nothing_found"});
 }
 
 std::string_view name(Observations observations) {
-  constexpr std::string_view kNames[] = {"points", "distances", "readings", "belts", "measures"};
-  return kNames[as_size(observations)];
+  return word_of(observations, {"points", "distances", "readings", "belts", "measures"});
 }
 
 namespace {
@@ -48,7 +45,7 @@ using Says = DeclaredAnswer::Says;
 
 template <class T>
 const T* find_of(const std::vector<T>& all, const CauseId& cause) {
-  return find_where(all, [&](const T& one) { return one.cause == cause; });
+  return find_where(all, having(&T::cause, cause));
 }
 
 /// The leading model without this cause.
@@ -62,8 +59,7 @@ RegressorSet others_than(const Analysis& a, const CauseId& cause) {
 
 /// Whether the readings are more probable without it than with its values in the file.
 bool is_refuted(const Analysis& a, const CauseId& cause) {
-  const auto g = signature(a.session, a.state, a.system,
-                           {cause, model::effects::nominal_values(*cause.effect)});
+  const auto g = signature(a.session, a.state, a.system, {cause, nominal_values(*cause.effect)});
   if (!g) return false;
   const LawModel model(a, marginalised_system(a),
                        {others_than(a, cause), a.decision.best_discrepancy});
@@ -88,7 +84,7 @@ Says said_of(const Analysis& a, const Diagnosis& found, const CauseId& cause, do
 std::vector<DeclaredAnswer> declared_answers(const Analysis& a, const Diagnosis& found) {
   std::vector<DeclaredAnswer> answers;
   const auto is_declared = [](const CauseId& cause) {
-    return model::effects::declaration_of(*cause.effect) != nullptr;
+    return declaration_of(*cause.effect) != nullptr;
   };
   for (const CauseId& cause : a.candidates.testable) {
     if (!is_declared(cause)) continue;
@@ -105,7 +101,7 @@ std::vector<DeclaredAnswer> declared_answers(const Analysis& a, const Diagnosis&
 constexpr int kWorkSteps = 4;
 constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
 
-Observations observations_of(const ObservationSet& session) {
+Observations kind_read(const ObservationSet& session) {
   if (!session.has_distances()) return Observations::points;
   return session.reads_chains() ? Observations::both : Observations::distances;
 }
@@ -128,9 +124,9 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
     const ColumnSet& columns = a.session.parts[k].zero_columns;
     for (const auto z : each_index(columns)) {
       zeros[z] = {a.estimate.setting_change(columns[z]),
-                  std::sqrt(a.estimate.setting_covariance(columns[z], columns[z]))};
+                  std::sqrt(a.estimate.covariance(columns[z], columns[z]))};
     }
-    const std::string words = estimation::words_of(zeros);
+    const std::string words = words_of(zeros);
     if (!words.empty())
       d.notes.push_back(fmt::format("{}: the chains' zeros differ from those in {}: {}.", names[k],
                                     names.front(), words));
@@ -182,8 +178,7 @@ void count_law(Diagnosis& d) {
 }  // namespace
 
 std::string_view name(DeclaredAnswer::Says says) {
-  constexpr std::string_view kNames[] = {"confirmed", "denied", "open", "not_testable"};
-  return kNames[as_size(says)];
+  return word_of(says, {"confirmed", "denied", "open", "not_testable"});
 }
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
@@ -200,7 +195,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   const LawsFound& laws = naming.laws;
   Diagnosis d;
   d.visiting_order = naming.order;
-  d.observations = observations_of(a.session);
+  d.observations = kind_read(a.session);
   d.stability = std::move(naming.stability);
   if (naming.refusal) d.notes.push_back(*std::move(naming.refusal));
   take_findings(a, d);
@@ -276,7 +271,7 @@ std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
     const auto at = as_index(k);
     DrawnSetting own{std::string(parameters[k].name), a.session.stated_value(at),
                      a.system.setting(at) + a.estimate.setting_change(at),
-                     std::sqrt(a.estimate.setting_covariance(at, at))};
+                     std::sqrt(a.estimate.covariance(at, at))};
     own.off = std::abs(own.found - own.set) > kOffSigmas * own.sigma;
     settings.push_back(std::move(own));
   }
@@ -307,7 +302,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
   auto readings = drawn_measures_of(drawing).value();
   ObservationSet session = estimation::observation_set(
       {}, {std::make_shared<const observation::DrawnMeasures>(std::move(readings))},
-      model::make_plotter_mechanism(drawing.machine));
+      make_plotter_mechanism(drawing.machine));
   session.fewest_units = kFewestMeasures;
   auto analysis = analyse(std::move(session), options);
   if (!analysis) return failed(analysis);

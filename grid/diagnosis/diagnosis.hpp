@@ -277,7 +277,7 @@ struct Removal {
   double at_mm = 0.0;      ///< of a column its x, of a row its y
   std::size_t points = 1;  ///< or distances, that are left out
   Verdict verdict = Verdict::nothing_found;
-  std::vector<CauseId> causes;  ///< that would be named
+  std::vector<CauseId> causes{};  ///< that would be named
   /// Whether the names are the same without these.
   bool stands = true;
   /// Probability of the named causes.

@@ -12,6 +12,50 @@ namespace {
 /// Radius of a sled: that far from the border its rim begins to hang over.
 constexpr double kSledMm = 230.0;
 
+/// The field's arguments at a place, for the two components that it enters; equal except for the
+/// border.
+struct FieldArgument {
+  double first = 0.0;
+  double second = 0.0;  ///< of the place: y
+  double weight = 1.0;  ///< of the field there, with its sign
+};
+
+FieldArgument field_argument(const DiscrepancyField& field, const SystemPlace& place,
+                             Index component) {
+  switch (field.of) {
+    case Coordinate::place:
+      return {place.mark.x_mm, place.mark.y_mm};
+    case Coordinate::border: {
+      const double from_middle = component == 0 ? place.mark.x_mm : place.mark.y_mm;
+      const double half = 0.5 * (component == 0 ? place.bed.width_mm : place.bed.height_mm);
+      const double beyond = std::abs(from_middle) - half;
+      return {beyond, 0.0, std::copysign(std::exp(beyond / kSledMm), from_middle)};
+    }
+    default:
+      return {value_at(place, field.of, field.across_rad)};
+  }
+}
+
+/// For the field's values at two arguments.
+double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
+                        const FieldArgument& b) {
+  const double square = std::pow(a.first - b.first, 2) + std::pow(a.second - b.second, 2);
+  return a.weight * b.weight * std::exp(-0.5 * square / (field.length * field.length));
+}
+
+/// How a field enters: d of its direction; (1, 1) of the border, where both components are one
+/// field's; nothing if the components are independent.
+std::optional<Vector2d> entry_direction(const DiscrepancyField& field) {
+  if (field.of == Coordinate::border) return Vector2d::Ones();
+  if (!field.direction_rad) return std::nullopt;
+  return Vector2d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
+}
+
+/// T at a place.
+Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place) {
+  return field.entry == FieldEntry::chains ? Matrix2d(Matrix2d::Identity()) : place.state.by_mark;
+}
+
 /// k of each length at two places.
 double between_lengths(const DiscrepancyKernel& kernel, const SystemPlace& a,
                        const SystemPlace& b) {
@@ -34,42 +78,13 @@ std::vector<std::vector<RowsAtPlace>> rows_by_place(const RegressorSystem& syste
   std::vector<std::vector<RowsAtPlace>> result(system.places.size());
   for (const KeptRows::Unit& own : kept.units()) {
     const SystemUnit& unit = system.units[own.unit];
-    for (const observation::PlaceColumns& place : unit.places) {
+    for (const PlaceColumns& place : unit.places) {
       MatrixXd by = kernel.of_lengths() ? unit.by_reading : MatrixXd(place.by_chain);
       if (const auto alone = kernel.fields.front().alone) by = MatrixXd(by.col(*alone));
       result[place.place].push_back({own.at, KeptRows::of_unit(own, by)});
     }
   }
   return result;
-}
-
-/// K of these rows and those, which are the same if `symmetric`.
-MatrixXd between(const DiscrepancyKernel& kernel, const RegressorSystem& to, const KeptRows& rows,
-                 const RegressorSystem& from, const KeptRows& columns, bool symmetric) {
-  const auto to_places = rows_by_place(to, rows, kernel);
-  const auto from_places = rows_by_place(from, columns, kernel);
-  MatrixXd c = MatrixXd::Zero(rows.size(), columns.size());
-  for (const auto p : each_index(to_places)) {
-    for (std::size_t q = 0; q < (symmetric ? p + 1 : from_places.size()); ++q) {
-      if (to_places[p].empty() || from_places[q].empty()) continue;
-      const SystemPlace& here = to.places[p];
-      const SystemPlace& there = from.places[q];
-      const double k = kernel.of_lengths() ? between_lengths(kernel, here, there) : 1.0;
-      const Matrix2d block = kernel.of_lengths() ? Matrix2d(Matrix2d::Identity())
-                                                 : discrepancy_block(kernel, here, there);
-      for (const RowsAtPlace& a : to_places[p]) {
-        decltype(a.by) left = k * a.by;
-        if (!kernel.of_lengths()) left = a.by.lazyProduct(block);
-        for (const RowsAtPlace& b : from_places[q]) {
-          const decltype(a.by) part = left.lazyProduct(b.by.transpose());
-          c.block(a.at, b.at, part.rows(), part.cols()) += part;
-          if (symmetric && p != q)
-            c.block(b.at, a.at, part.cols(), part.rows()) += part.transpose();
-        }
-      }
-    }
-  }
-  return c;
 }
 
 /// The largest residual of a field's unit variance that is rounding.
@@ -88,70 +103,49 @@ std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
   return result;
 }
 
-}  // namespace
-
-FieldArgument field_argument(const DiscrepancyField& field, const SystemPlace& place,
-                             Index component) {
-  switch (field.of) {
-    case Coordinate::place:
-      return {place.mark.x_mm, place.mark.y_mm};
-    case Coordinate::border: {
-      const double from_middle = component == 0 ? place.mark.x_mm : place.mark.y_mm;
-      const double half = 0.5 * (component == 0 ? place.bed.width_mm : place.bed.height_mm);
-      const double beyond = std::abs(from_middle) - half;
-      return {beyond, 0.0, std::copysign(std::exp(beyond / kSledMm), from_middle)};
-    }
-    default:
-      return {value_at(place, field.of, field.across_rad)};
-  }
-}
-
-double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
-                        const FieldArgument& b) {
-  const double square = std::pow(a.first - b.first, 2) + std::pow(a.second - b.second, 2);
-  return a.weight * b.weight * std::exp(-0.5 * square / (field.length * field.length));
-}
-
-std::optional<Vector2d> entry_direction(const DiscrepancyField& field) {
-  if (field.of == Coordinate::border) return Vector2d::Ones();
-  if (!field.direction_rad) return std::nullopt;
-  return Vector2d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
-}
-
-Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place) {
-  return field.entry == FieldEntry::chains ? Matrix2d(Matrix2d::Identity()) : place.state.by_mark;
-}
-
+/// Covariance of the two chains at two places, for s = 1.
 Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
                            const SystemPlace& b) {
   Matrix2d sum = Matrix2d::Zero();
   for (const DiscrepancyField& field : kernel.fields) {
     Matrix2d covariance = Matrix2d::Identity();
     if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
-    if (field.of == Coordinate::border) {
-      for (Index i = 0; i < 2; ++i) {
-        for (Index j = 0; j < 2; ++j) {
-          covariance(i, j) *=
-              field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
-        }
-      }
-    } else {
-      covariance *=
-          field_covariance(field, field_argument(field, a, 0), field_argument(field, b, 0));
+    for (const Index i : each_below(covariance.rows())) {
+      for (const Index j : each_below(covariance.cols()))
+        covariance(i, j) *=
+            field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
     }
     sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
   }
   return sum / as_double(kernel.fields.size());
 }
 
-MatrixXd discrepancy_covariance(const RegressorSystem& to, const RegressorSystem& from,
-                                const KeptRows& kept, const DiscrepancyKernel& kernel) {
-  return between(kernel, to, KeptRows::all(to), from, kept, false);
-}
+}  // namespace
 
-MatrixXd discrepancy_covariance(const RegressorSystem& system, const KeptRows& kept,
-                                const DiscrepancyKernel& kernel) {
-  return between(kernel, system, kept, system, kept, true);
+MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const RegressorSystem& to,
+                                const KeptRows& rows, const RegressorSystem& from,
+                                const KeptRows& columns) {
+  const auto to_places = rows_by_place(to, rows, kernel);
+  const auto from_places = rows_by_place(from, columns, kernel);
+  MatrixXd c = MatrixXd::Zero(rows.size(), columns.size());
+  for (const auto p : each_index(to_places)) {
+    for (const auto q : each_index(from_places)) {
+      if (to_places[p].empty() || from_places[q].empty()) continue;
+      const SystemPlace& here = to.places[p];
+      const SystemPlace& there = from.places[q];
+      const double k = kernel.of_lengths() ? between_lengths(kernel, here, there) : 1.0;
+      const Matrix2d block = kernel.of_lengths() ? Matrix2d(Matrix2d::Identity())
+                                                 : discrepancy_block(kernel, here, there);
+      for (const RowsAtPlace& a : to_places[p]) {
+        decltype(a.by) left = k * a.by;
+        if (!kernel.of_lengths()) left = a.by.lazyProduct(block);
+        for (const RowsAtPlace& b : from_places[q]) {
+          c.block(a.at, b.at, left.rows(), b.by.rows()) += left.lazyProduct(b.by.transpose());
+        }
+      }
+    }
+  }
+  return c;
 }
 
 MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
@@ -175,6 +169,13 @@ MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
   return factor.leftCols(rank);
 }
 
+MatrixXd low_rank(const MatrixXd& covariance, double share) {
+  const Index n = covariance.rows();
+  const double most = n > 0 ? covariance.diagonal().maxCoeff() : 0.0;
+  if (!(most > 0.0)) return MatrixXd(n, 0);
+  return low_rank(n, share * most, [&](Index i, Index j) { return covariance(i, j); });
+}
+
 FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
                          const DiscrepancyField& field, double least) {
   const std::vector<FieldArgument> arguments = arguments_of(field, system.places);
@@ -187,7 +188,7 @@ FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
                      MatrixXd::Zero(kept.size(), factor.cols())};
   for (const KeptRows::Unit& own : kept.units()) {
     const SystemUnit& unit = system.units[own.unit];
-    for (const observation::PlaceColumns& place : unit.places) {
+    for (const PlaceColumns& place : unit.places) {
       const MatrixXd entry =
           KeptRows::of_unit(own, place.by_chain * field_entry(field, system.places[place.place]));
       const auto at = as_index(place.place);
@@ -208,10 +209,7 @@ std::vector<Vector2d> entries_of(const DiscrepancyField& field) {
 MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
                             const DiscrepancyKernel& kernel) {
   if (kernel.of_lengths()) {
-    const MatrixXd k = discrepancy_covariance(system, kept, kernel);
-    const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
-    if (!(most > 0.0)) return MatrixXd(k.rows(), 0);
-    return low_rank(k.rows(), kFieldRounding * most, [&](Index i, Index j) { return k(i, j); });
+    return low_rank(discrepancy_covariance(kernel, system, kept, system, kept), kFieldRounding);
   }
   std::vector<MatrixXd> parts;
   Index rank = 0;

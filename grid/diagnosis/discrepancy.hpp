@@ -25,8 +25,8 @@
 #include <span>
 #include <vector>
 
-#include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
+#include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 #include "interp/eigen.hpp"
 
@@ -89,39 +89,10 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-/// The field's arguments at a place, for the two components that it enters; equal except for the
-/// border.
-struct FieldArgument {
-  double first = 0.0;
-  double second = 0.0;  ///< of the place: y
-  double weight = 1.0;  ///< of the field there, with its sign
-};
-FieldArgument field_argument(const DiscrepancyField& field, const SystemPlace& place,
-                             Index component);
-
-/// For the field's values at two arguments.
-double field_covariance(const DiscrepancyField& field, const FieldArgument& a,
-                        const FieldArgument& b);
-
-/// How a field enters: d of its direction; (1, 1) of the border, where both components are one
-/// field's; nothing if the components are independent.
-std::optional<Vector2d> entry_direction(const DiscrepancyField& field);
-
-/// T at a place.
-Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
-
-/// Covariance of the two chains at two places, for s = 1.
-Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
-                           const SystemPlace& b);
-
-/// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
-/// that see no place stay 0.
-MatrixXd discrepancy_covariance(const RegressorSystem& to, const RegressorSystem& from,
-                                const KeptRows& kept, const DiscrepancyKernel& kernel);
-
-/// Covariance of these whitened rows, for s = 1.
-MatrixXd discrepancy_covariance(const RegressorSystem& system, const KeptRows& kept,
-                                const DiscrepancyKernel& kernel);
+/// Covariance of these whitened rows of `to` with those of `from`, for s = 1. Rows that see no place stay 0.
+MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const RegressorSystem& to,
+                                const KeptRows& rows, const RegressorSystem& from,
+                                const KeptRows& columns);
 
 /// F with F F' = that covariance up to rounding: kept x r. A smooth field over a bed has few degrees of freedom.
 MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
@@ -132,6 +103,8 @@ MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
 /// algorithm 1).
 using CovarianceOf = std::function<double(Index, Index)>;
 MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance);
+/// The same of a covariance at hand, below this share of its largest variance.
+MatrixXd low_rank(const MatrixXd& covariance, double share);
 
 /// A field's effect on the kept rows, through either component of its entry, what is left of the field's unit
 /// variance at any place below `least`.

@@ -18,12 +18,10 @@ constexpr double kLeftOfField = 1e-4;
 /// B of a kernel of lengths.
 MatrixXd low_rank_lengths(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                           const DiscrepancyKernel& kernel) {
+  const KeptRows& kept = marginalised.kept;
   const MatrixXd half =
-      marginalised.root.solve(discrepancy_covariance(system, marginalised.kept, kernel));
-  const MatrixXd k = marginalised.root.solve(half.transpose());
-  const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
-  if (!(most > 0.0)) return MatrixXd(k.rows(), 0);
-  return low_rank(k.rows(), kLeftOfField * most, [&](Index i, Index j) { return k(i, j); });
+      marginalised.root.solve(discrepancy_covariance(kernel, system, kept, system, kept));
+  return low_rank(marginalised.root.solve(MatrixXd(half.transpose())), kLeftOfField);
 }
 
 /// One field's inner products, by component.
@@ -69,7 +67,7 @@ class DiscrepancyBasis::Fields {
 
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
-    auto* known = find_where(all_, [&](const Products& p) { return p.field == field; });
+    auto* known = find_where(all_, having(&Products::field, field));
     if (known != nullptr) return *known;
     const FieldFactor parts = field_factor(system_, marginalised_.kept, field, kLeftOfField);
     return add(field,

@@ -8,7 +8,6 @@
 #include <set>
 #include <tuple>
 
-#include "grid/diagnosis/ties.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
@@ -85,8 +84,7 @@ Flags with_units(const RegressorSystem& system, Flags groups, const Indices& uni
 
 /// The one of these systems that rejects these points; it is made if there is none.
 std::size_t home_of(std::vector<MarginalisedSystem>& systems, Flags outliers) {
-  const auto* same =
-      find_where(systems, [&](const MarginalisedSystem& own) { return own.outliers == outliers; });
+  const auto* same = find_where(systems, having(&MarginalisedSystem::outliers, outliers));
   if (same != nullptr) return as_size(same - systems.data());
   systems.emplace_back().outliers = std::move(outliers);
   return systems.size() - 1;

@@ -6,22 +6,17 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/other_places.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(BudgetLine::What what) {
-  constexpr std::string_view kNames[] = {"settings", "cause", "unexplained", "noise",
-                                         "inseparable"};
-  return kNames[as_size(what)];
+  return word_of(what, {"settings", "cause", "unexplained", "noise", "inseparable"});
 }
 
 std::string_view name(BudgetLine::ChangesWith changes) {
-  constexpr std::string_view kNames[] = {"nothing", "place", "order", "direction"};
-  return kNames[as_size(changes)];
+  return word_of(changes, {"nothing", "place", "order", "direction"});
 }
 
 namespace {

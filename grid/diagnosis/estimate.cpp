@@ -32,32 +32,20 @@ Solution solve(const Unknowns& unknowns, const VectorXd& settings, VectorXd data
 /// From the residual rows. For the kept ones (1 + s^2 K)^-1 gives it: left - s^2 K w = w.
 void take_discrepancy_out(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                           Estimate& estimate) {
-  if (estimate.discrepancy.kernel.of_lengths()) {
-    const double square = estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm;
-    linear::add_product(
-        estimate.left_given_discrepancy, -square,
-        discrepancy_covariance(system, system, marginalised.kept, estimate.discrepancy.kernel),
-        estimate.discrepancy_weights);
-    return;
-  }
-  estimate.left_given_discrepancy(marginalised.kept.rows()) = estimate.discrepancy_weights;
-  for (const auto u : each_index(system.units)) {
-    if (!marginalised.outliers[u]) continue;
-    const SystemUnit& unit = system.units[u];
-    for (const observation::PlaceColumns& place_columns : unit.places) {
-      const SystemPlace& place = system.places[place_columns.place];
-      estimate.left_given_discrepancy.segment(unit.first_row, unit.rows) -=
-          place_columns.by_chain * discrepancy_at(system, marginalised, estimate, place);
-    }
-  }
+  const bool of_lengths = estimate.discrepancy.kernel.of_lengths();
+  const KeptRows& kept = marginalised.kept;
+  Flags others = marginalised.outliers;
+  others.flip();
+  const KeptRows rest = of_lengths ? KeptRows::all(system) : KeptRows(system, others);
+  VectorXd& left = estimate.left_given_discrepancy;
+  if (!of_lengths) left(kept.rows()) = estimate.discrepancy_weights;
+  left(rest.rows()) -= discrepancy_in(system, rest, system, marginalised, estimate);
 }
 
 }  // namespace
 
 RegressorSet Estimate::free_regressors() const {
-  RegressorSet result;
-  for (const std::size_t k : free) result.push_back(regressors[k]);
-  return result;
+  return mapped(free, [&](std::size_t k) { return regressors[k]; });
 }
 
 Index Estimate::position(int regressor) const {
@@ -148,7 +136,6 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   const NoiseDensity density(system.noise_dof, marginalised.kept.size());
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
-  result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
   for (const auto k : each_index(result.free)) {
     const Index column = settings + as_index(k);
     result.coefficient_sigma(as_index(result.free[k])) =
@@ -164,20 +151,14 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
   return result;
 }
 
-Vector2d discrepancy_at(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                        const Estimate& estimate, const SystemPlace& place) {
-  Vector2d mm = Vector2d::Zero();
-  if (estimate.discrepancy_weights.size() == 0) return mm;
-  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
-    const SystemUnit& unit = system.units[kept.unit];
-    const auto weights = estimate.discrepancy_weights.segment(kept.at, unit.rows);
-    for (const observation::PlaceColumns& place_columns : unit.places) {
-      mm += discrepancy_block(estimate.discrepancy.kernel, place,
-                              system.places[place_columns.place]) *
-            place_columns.by_chain.transpose() * weights;
-    }
-  }
-  return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
+VectorXd discrepancy_in(const RegressorSystem& there, const KeptRows& rows,
+                        const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                        const Estimate& estimate) {
+  if (estimate.discrepancy_weights.size() == 0) return VectorXd::Zero(rows.size());
+  const MatrixXd k =
+      discrepancy_covariance(estimate.discrepancy.kernel, there, rows, system, marginalised.kept);
+  return std::pow(estimate.discrepancy.sigma_mm, 2) *
+         linear::product(k, estimate.discrepancy_weights);
 }
 
 VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,
@@ -195,9 +176,7 @@ Vector2d error_of_unit(const RegressorSystem& system, const VectorXd& whitened, 
 
 std::vector<Vector2d> errors_of_units(const RegressorSystem& system, const VectorXd& whitened,
                                       const Indices& units) {
-  std::vector<Vector2d> result;
-  for (const std::size_t unit : units) result.push_back(error_of_unit(system, whitened, unit));
-  return result;
+  return mapped(units, [&](std::size_t unit) { return error_of_unit(system, whitened, unit); });
 }
 
 double rms_of_units_mm(const RegressorSystem& system, const KeptRows& kept,

@@ -15,8 +15,7 @@ struct Estimate {
   RegressorSet regressors;
   /// q, from the state of the system: settings in their units, the nuisances after them.
   VectorXd setting_change;
-  MatrixXd setting_covariance;  ///< q x q
-  VectorXd coefficient;         ///< for each regressor
+  VectorXd coefficient;  ///< for each regressor
   /// 0 if the size is a whole number; at a bound, the sigma from noise alone.
   VectorXd coefficient_sigma;
   double noise_square = 1.0;        ///< s^2
@@ -58,9 +57,10 @@ DiscrepancyNoise discrepancy_noise(const RegressorSystem& system,
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                   const RegressorSet& regressors, const DiscrepancyNoise& noise);
 
-/// The model discrepancy of either chain at a place [mm]; zero without one.
-Vector2d discrepancy_at(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                        const Estimate& estimate, const SystemPlace& place);
+/// The estimate's discrepancy in these whitened rows, of its own system or of another; zero without one.
+VectorXd discrepancy_in(const RegressorSystem& there, const KeptRows& rows,
+                        const RegressorSystem& system, const MarginalisedSystem& marginalised,
+                        const Estimate& estimate);
 
 /// `left` with the nuisances' share added back: the machine's residual. For points `left` itself.
 VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,

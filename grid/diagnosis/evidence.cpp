@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "grid/statistics.hpp"
@@ -123,10 +122,9 @@ double wide_coefficient_sigma(const RegressorSystem& system, const MarginalisedS
 }
 
 ColumnSet NormalEquations::positions(const RegressorSet& some) const {
-  ColumnSet result;
-  for (const int k : some)
-    result.push_back(std::lower_bound(columns.begin(), columns.end(), k) - columns.begin());
-  return result;
+  return mapped(some, [&](int k) {
+    return std::lower_bound(columns.begin(), columns.end(), k) - columns.begin();
+  });
 }
 
 VectorXd prior_squares(const std::vector<Regressor>& regressors, const RegressorSet& columns,

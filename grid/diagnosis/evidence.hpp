@@ -27,7 +27,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "grid/diagnosis/covariance_root.hpp"

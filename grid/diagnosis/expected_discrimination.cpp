@@ -5,10 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/other_places.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -39,13 +37,11 @@ std::map<std::pair<bool, Indices>, Group> groups_of(const Analysis& a) {
   const std::size_t named = a.decision.regressors.size();
   for (const CandidateModel& model : a.comparison.models) {
     if (named > 0 ? model.regressors.size() != named : model.regressors.size() > 1) continue;
-    std::vector<Member> causes;
-    for (const int k : model.regressors) causes.push_back(member_of(a, regressor(a, k).cause));
+    auto causes =
+        mapped(model.regressors, [&](int k) { return member_of(a, regressor(a, k).cause); });
     sort(causes);
-    Indices classes;
-    for (const Member& cause : causes) classes.push_back(cause.first);
     const bool pattern = named == 0 && model.discrepancy >= 0;
-    Group& group = groups[{pattern, std::move(classes)}];
+    Group& group = groups[{pattern, mapped(causes, &Member::first)}];
     Alternative& one = group.members[causes];
     if (one.probability == 0.0) {
       one.regressors = model.regressors;
@@ -68,11 +64,13 @@ MatrixXd add_discrepancy(const Analysis& a, const RegressorSystem& system, const
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
-  const MatrixXd k = square * discrepancy_covariance(system, a.system, marginalised.kept, kernel);
+  const KeptRows all = KeptRows::all(system);
+  const MatrixXd k =
+      square * discrepancy_covariance(kernel, system, all, a.system, marginalised.kept);
   const MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
   linear::add_product(expected.mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(expected.by_unknown, -1.0, k, covariance.solve(x));
-  MatrixXd own = square * discrepancy_covariance(system, KeptRows::all(system), kernel);
+  MatrixXd own = square * discrepancy_covariance(kernel, system, all, system, all);
   linear::add_gram(own, -1.0, covariance.half_solve(MatrixXd(k.transpose())));
   return without_negligible(own);
 }

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "grid/diagnosis/regressor_system.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -228,24 +226,18 @@ Cause describe(const Analysis& a, std::size_t index) {
 }  // namespace
 
 std::vector<Cause> causes_found(const Analysis& a) {
-  std::vector<Cause> result;
-  for (const std::size_t index : a.decision.listed) {
-    result.push_back(describe(a, index));
-  }
-  return result;
+  return mapped(a.decision.listed, [&](std::size_t index) { return describe(a, index); });
 }
 
 Hypothesis hypothesis_of(const CauseClass& members, double probability) {
   const CauseId& cause = members.front();
-  return {std::string(cause.effect->id), std::string(model::effects::name(cause.side)), probability,
-          members};
+  return {std::string(cause.effect->id), std::string(name(cause.side)), probability, members};
 }
 
 std::vector<Hypothesis> hypotheses(const Analysis& a) {
-  std::vector<Hypothesis> result;
-  for (const ClassProbability& one : a.decision.marginal) {
-    result.push_back(hypothesis_of(a.decision.classes[one.index], one.probability));
-  }
+  auto result = mapped(a.decision.marginal, [&](const ClassProbability& one) {
+    return hypothesis_of(a.decision.classes[one.index], one.probability);
+  });
   result.push_back({"nothing", "", a.decision.nothing});
   result.push_back({"unknown", "", a.decision.discrepancy});
   result.push_back({"noise", "", a.decision.noise});
@@ -310,7 +302,7 @@ std::vector<CalibratedSetting> settings_found(const Analysis& a) {
     one.stated = session.stated_value(at);
     one.stated_sigma = session.stated_sigma(at);
     one.calibrated = a.system.setting(at) + a.estimate.setting_change(at);
-    one.sigma = std::sqrt(a.estimate.setting_covariance(at, at));
+    one.sigma = std::sqrt(a.estimate.covariance(at, at));
     // A posterior mean under the stated prior scatters by sqrt(prior - posterior).
     const double prior = one.stated_sigma * one.stated_sigma;
     const double scatter =
@@ -352,7 +344,9 @@ Outlier outlier_of(const Analysis& a, std::size_t u) {
     outlier.residual_mm = error_mm.x();
     // The prediction includes the others' information on its holes, and its uncertainty.
     const VectorXd by_setting = a.system.by_setting.row(unit.first_row);
-    variance += by_setting.dot(linear::product(a.estimate.setting_covariance, by_setting));
+    const auto settings = by_setting.size();
+    variance += by_setting.dot(
+        linear::product(a.estimate.covariance.topLeftCorner(settings, settings), by_setting));
   }
   outlier.distance = unit.segment(left).norm() / std::sqrt(variance);
   return outlier;

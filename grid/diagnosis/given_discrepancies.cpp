@@ -6,7 +6,7 @@
 #include <map>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
-#include "grid/diagnosis/ties.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
@@ -19,7 +19,7 @@ struct Scouted {
   int discrepancy = 0;
   double weight = kMinusInfinity;
   /// Regressors worth trying in it, with the weight of each alone, best first.
-  std::vector<std::pair<double, int>> singles;
+  ScoredRegressors singles;
 };
 
 /// With the regressors of more sets, ascending.
@@ -31,9 +31,9 @@ RegressorSet with_sets(RegressorSet set, const std::vector<RegressorSet>& more) 
 
 class Scout {
  public:
-  Scout(const RegressorSystem& system, const NormalEquations& plain,
-        const std::vector<RegressorSet>& best_models, const ModelCollector& collector)
-      : system_(system), plain_(plain), best_models_(best_models), collector_(collector) {
+  Scout(const NormalEquations& plain, const std::vector<RegressorSet>& best_models,
+        const ModelCollector& collector)
+      : plain_(plain), best_models_(best_models), collector_(collector) {
     for (const int k : plain.columns) {
       prior_.push_back(collector.log_prior_of({k}, -1) + std::log(kDiscrepancyPrior));
     }
@@ -46,7 +46,7 @@ class Scout {
     const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
     Scouted result{
         discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
-    std::vector<std::pair<double, int>> all;
+    ScoredRegressors all;
     for (const auto k : each_index(plain_.columns)) {
       all.emplace_back(prior_[k] + share + single(d, as_index(k)), plain_.columns[k]);
     }
@@ -63,11 +63,11 @@ class Scout {
   }
 
  private:
-  const DiscrepancyFamily& family() const { return *system_.discrepancies; }
+  const DiscrepancyFamily& family() const { return *collector_.system().discrepancies; }
 
   /// log evidence of one regressor, without the common determinants and ignoring its bounds.
   double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Index k) const {
-    const Regressor& own = system_.regressor(plain_.columns[as_size(k)]);
+    const Regressor& own = collector_.system().regressor(plain_.columns[as_size(k)]);
     const NoiseDensity& noise = collector_.noise();
     if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
     const double gg = std::max(d.gg(k), 0.0);
@@ -82,12 +82,12 @@ class Scout {
 
   double together(const NormalEquations& equations, int discrepancy,
                   const RegressorSet& set) const {
-    return set_evidence(equations, system_.regressors, equations.positions(set), collector_.noise())
+    return set_evidence(equations, collector_.system().regressors, equations.positions(set),
+                        collector_.noise())
                .log_evidence +
            collector_.log_prior_of(set, discrepancy);
   }
 
-  const RegressorSystem& system_;
   const NormalEquations& plain_;
   const std::vector<RegressorSet>& best_models_;
   const ModelCollector& collector_;
@@ -96,10 +96,9 @@ class Scout {
 };
 
 /// The sets given one discrepancy, with full weights: `best_models`, and those grown from singles.
-void search_given(const RegressorSystem& system, const NormalEquations& equations, int discrepancy,
-                  const SearchLimits& limits, const RegressorSet& singles,
+void search_given(const NormalEquations& equations, int discrepancy, const RegressorSet& singles,
                   const std::vector<RegressorSet>& best_models, ModelCollector& collector) {
-  GrowingSets sets(system, equations, discrepancy, limits, collector);
+  GrowingSets sets(equations, discrepancy, collector);
   const ColumnSet alone = equations.positions(singles);
   sets.weigh({});
   for (const Index column : alone) sets.weigh({column});
@@ -107,9 +106,6 @@ void search_given(const RegressorSystem& system, const NormalEquations& equation
   sets.grow(1, {.parents = kBeamGivenDiscrepancy, .impossible = true},
             [&](const ColumnSet&) { return alone; });
 }
-
-/// Regressors with a score, best first.
-using ScoredRegressors = std::vector<std::pair<double, int>>;
 
 /// The first `most` of each cause, and those that tie with the last of these.
 RegressorSet first_of_each_cause(const RegressorSystem& system, const ScoredRegressors& sorted,
@@ -159,17 +155,17 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
 }
 
 /// A separate beam search for every discrepancy.
-std::vector<double> search_all_by_beam(const RegressorSystem& system, DiscrepancyBasis& basis,
-                                       const SearchLimits& limits, const NormalEquations& plain,
+std::vector<double> search_all_by_beam(DiscrepancyBasis& basis, const NormalEquations& plain,
                                        const Indices& kernels, ModelCollector& collector) {
-  const DiscrepancyFamily& family = *system.discrepancies;
+  const DiscrepancyFamily& family = *collector.system().discrepancies;
+  const std::size_t step = collector.limits().strength_step;
   const std::size_t strengths = family.strengths.size();
   for (const std::size_t kernel : kernels) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernel, plain);
-    for (std::size_t s = limits.strength_step - 1; s < strengths; s += limits.strength_step) {
+    for (std::size_t s = step - 1; s < strengths; s += step) {
       const auto discrepancy = as_int(kernel * strengths + s);
-      search_by_beam(system, given.equations(family.strength_of(discrepancy), plain.columns),
-                     discrepancy, limits, collector);
+      search_by_beam(given.equations(family.strength_of(discrepancy), plain.columns), discrepancy,
+                     collector);
     }
   }
   // All are tried with every set of outliers.
@@ -178,18 +174,17 @@ std::vector<double> search_all_by_beam(const RegressorSystem& system, Discrepanc
 
 }  // namespace
 
-std::vector<double> search_given_discrepancies(const RegressorSystem& system,
-                                               MarginalisedSystem& marginalised,
-                                               const ComparisonOptions& options,
-                                               const NormalEquations& plain,
+std::vector<double> search_given_discrepancies(const NormalEquations& plain,
                                                const std::vector<RegressorSet>& best_models,
                                                const Indices& kernels, ModelCollector& collector) {
+  const RegressorSystem& system = collector.system();
+  MarginalisedSystem& marginalised = collector.marginalised();
   DiscrepancyBasis basis(system, marginalised, kernels);
-  if (options.search.of_a_cause > 0)
-    return search_all_by_beam(system, basis, options.search, plain, kernels, collector);
+  if (collector.limits().of_a_cause > 0)
+    return search_all_by_beam(basis, plain, kernels, collector);
   const NormalEquations few =
       normal_equations(system, marginalised, columns_to_scout(system, plain, best_models));
-  const Scout first_look(system, few, best_models, collector);
+  const Scout first_look(few, best_models, collector);
   const DiscrepancyFamily& family = *system.discrepancies;
   const auto strengths = as_int(family.strengths.size());
   std::vector<Scouted> scouted(kernels.size() * family.strengths.size());
@@ -197,26 +192,21 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
   basis.relate(few);
   for_each_index(kernels.size(), [&](std::size_t k) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernels[k], few);
-    for (int strength = 0; strength < strengths; ++strength) {
+    for (const int strength : each_below(strengths)) {
       Scouted& own = scouted[k * family.strengths.size() + as_size(strength)];
       own = first_look.look_at(given, as_int(kernels[k]) * strengths + strength);
       of_kernel[k] = std::max(of_kernel[k], own.weight);
     }
   });
-  const Scout closer_look(system, plain, best_models, collector);
+  const Scout closer_look(plain, best_models, collector);
   std::map<std::size_t, DiscrepancyBasis::GivenKernel> all_columns;
   for (const int discrepancy : worth_searching(std::move(scouted))) {
     const std::size_t kernel = family.kernel_of(discrepancy);
     if (!all_columns.contains(kernel)) all_columns.emplace(kernel, basis.given(kernel, plain));
     const DiscrepancyBasis::GivenKernel& given = all_columns.at(kernel);
-    const RegressorSet singles =
-        options.given_cause ? plain.columns
-                            : worth_trying(system, closer_look.look_at(given, discrepancy));
-    RegressorSet used = singles;
-    for (const auto& set : best_models) append_all(used, set);
-    sort_unique(used);
-    search_given(system, given.equations(family.strength_of(discrepancy), used), discrepancy,
-                 options.search, singles, best_models, collector);
+    const RegressorSet singles = worth_trying(system, closer_look.look_at(given, discrepancy));
+    search_given(given.equations(family.strength_of(discrepancy), with_sets(singles, best_models)),
+                 discrepancy, singles, best_models, collector);
   }
   return of_kernel;
 }

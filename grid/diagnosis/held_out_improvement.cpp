@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
-#include "grid/diagnosis/other_places.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/parallel.hpp"
@@ -16,10 +15,26 @@
 #include "grid/random.hpp"
 #include "grid/raster.hpp"
 #include "grid/statistics.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
+
+/// Errors of the tool in mm with some causes, without a surface and with one.
+struct ErrorsWith {
+  std::vector<Vector2d> machine, and_surface;
+};
+/// None, those that the fold itself names, and those that all units name, their sizes fitted without the
+/// fold.
+enum CausesOfFold { kCalibrated, kExtended, kFixedNaming };
+using Errors = std::array<ErrorsWith, 3>;  ///< by CausesOfFold
+
+/// The decision's marginalised system without the points that only causes at one visit explain: a
+/// calibration without these causes would reject them too.
+MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& marginalised) {
+  Flags outliers = marginalised.outliers;
+  reject_slips(a, outliers);
+  return marginalise(a.system, outliers);
+}
 
 /// The discrepancy preferred given these causes, or none. If the comparison contains no model of these causes, the best
 /// model's is used.
@@ -58,7 +73,7 @@ Errors errors_at(const Indices& units, const Analysis& a, const ModelComparison&
 bool hangs_on_visits(const Analysis& a) {
   return any_of(a.decision.regressors, [&](int k) {
     const Regressor& d = a.system.regressor(k);
-    return !d.slip && model::effects::depends_on_visit(*d.cause.effect);
+    return !d.slip && depends_on_visit(*d.cause.effect);
   });
 }
 
@@ -68,9 +83,9 @@ ObservationSet over_the_area(const Analysis& a) {
   return session_at(a, raster(marked_area(a.session), 25, 13, RasterOf::cells));
 }
 
-/// Expected drop and remaining uncertainty of the error over some units.
-ExpectedImprovement over_units(const RegressorSystem& there, const VectorXd& moved,
-                               const MatrixXd& design, const MatrixXd& covariance) {
+/// Sets the expected drop and the remaining uncertainty of the error over some units.
+void expect_over(const RegressorSystem& there, const VectorXd& moved, const MatrixXd& design,
+                 const MatrixXd& covariance, HeldOutImprovement& improvement) {
   double drop = 0.0;
   double doubt = 0.0;
   for (const auto u : each_index(there.units)) {
@@ -83,8 +98,27 @@ ExpectedImprovement over_units(const RegressorSystem& there, const VectorXd& mov
         linear::product(to_mm, design.middleRows(unit.first_row, unit.rows));
     doubt += linear::carried(by_unknown, covariance).trace();
   }
-  const auto count = as_double(there.units.size());
-  return {drop / count, drop > 0.0 ? drop / (drop + doubt) : 0.0};
+  improvement.drop_mm2 = drop / as_double(there.units.size());
+  improvement.drop_share = drop > 0.0 ? drop / (drop + doubt) : 0.0;
+}
+
+/// Over the measured area with equal weights; over the measured distances; or at the points
+/// themselves if a cause depends on the visits.
+void expect_improvement(const Analysis& a, HeldOutImprovement& improvement) {
+  // Distances have positions only where they were read.
+  const bool of_distances = !a.session.reads_chains();
+  const ObservationSet area = of_distances || hangs_on_visits(a) ? a.session : over_the_area(a);
+  auto there = linearise(area, a.state);
+  if (!there || area.units.empty()) return;
+  // An error of the tape is not an error of the machine.
+  if (of_distances) there->by_setting.rightCols(there->nuisances).setZero();
+  const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
+  const Estimate named = estimate_of(a, a.decision.regressors);
+  const ExpectedRows expected = expected_rows(a, named, *there, [&](const Regressor& own) {
+    return own.slip ? std::nullopt : signature(area, a.state, *there, own);
+  });
+  const VectorXd moved = linear::product(there->by_setting, plain.setting_change) - expected.mean;
+  expect_over(*there, moved, expected.by_unknown, named.covariance, improvement);
 }
 
 }  // namespace
@@ -94,13 +128,24 @@ DecidedWithout decided_without(const Analysis& a, const Downdating& downdating,
   DecidedWithout result{downdating.without(units), {}};
   Flags excluded(a.session.units.size(), false);
   for (const std::size_t u : units) excluded[u] = true;
-  const bool detected =
-      a.options.given_cause.has_value() || a.null.p_value(result.models.score) < kFalseAlarm;
+  const bool detected = a.null.p_value(result.models.score) < kFalseAlarm;
   result.decision =
       decide(a.system, result.models.comparison, excluded, detected, a.decision.classes);
   return result;
 }
 
+namespace {
+
+/// Held-out units of one fold.
+struct Fold {
+  Indices units;
+  Errors errors;
+  bool agrees = false;  ///< its first name, or that nothing is named
+};
+
+/// \param units of the analysis' session, left out of everything. The gate and the decision are
+/// those for all units; the models are those of the whole comparison, weighed without these units
+/// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
 Fold fold_without(const Analysis& a, const Downdating& downdating, const Indices& units) {
   const auto [without, decision] = decided_without(a, downdating, units);
   // A reading that is wrong only at its own visit carries no information about others.
@@ -110,18 +155,24 @@ Fold fold_without(const Analysis& a, const Downdating& downdating, const Indices
   for (const std::size_t u : units) {
     if (!out[u]) fold.units.push_back(u);
   }
-  fold.named = decision.leaders();
+  const std::vector<CauseId> named = decision.leaders();
+  fold.agrees =
+      named.empty() ? a.decision.listed.empty() : contains(a.decision.leaders(), named.front());
   fold.errors = errors_at(fold.units, a, without.comparison, decision);
   return fold;
 }
 
-namespace {
+/// Groups of units that are held out together.
+struct HeldOutBlocks {
+  std::vector<Indices> units;  ///< empty if there are too few units
+  bool of_the_bed = false;     ///< or each hole with all distances that end there
+};
 
 /// Blocks of the bed over all marks with chain readings; none if there are too few.
 HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   std::vector<LengthPoint> points;
   Indices units;
-  for (const auto& [part, readings] : parts_of<observation::ChainLengthReadings>(session)) {
+  for (const auto& [part, readings] : parts_of<ChainLengthReadings>(session)) {
     for (const auto i : each_index(readings->places())) {
       const NumberedPlace& place = session.places[part->first_place + i];
       points.push_back({place.index, place.mark, place.lengths});
@@ -148,44 +199,14 @@ HeldOutBlocks blocks_by_hole(const ObservationSet& session) {
   return result;
 }
 
-}  // namespace
-
+/// The held-out errors are those of the tool if chains were read at enough marks, else of
+/// distances.
 HeldOutBlocks held_out_blocks(const ObservationSet& session) {
   constexpr std::size_t kFewestBlocks = 3;
   for (const auto& blocks : {blocks_of_the_bed(session), blocks_by_hole(session)}) {
     if (blocks.units.size() >= kFewestBlocks) return blocks;
   }
   return {};
-}
-
-MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& marginalised) {
-  Flags outliers = marginalised.outliers;
-  reject_slips(a, outliers);
-  return marginalise(a.system, outliers);
-}
-
-ExpectedImprovement expected_improvement(const Analysis& a) {
-  // Distances have positions only where they were read.
-  const bool of_distances = !a.session.reads_chains();
-  const ObservationSet area = of_distances || hangs_on_visits(a) ? a.session : over_the_area(a);
-  auto there = linearise(area, a.state);
-  if (!there || area.units.empty()) return {};
-  // An error of the tape is not an error of the machine.
-  if (of_distances) there->by_setting.rightCols(there->nuisances).setZero();
-  const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
-  const Estimate named = estimate_of(a, a.decision.regressors);
-  const ExpectedRows expected = expected_rows(a, named, *there, [&](const Regressor& own) {
-    return own.slip ? std::nullopt : signature(area, a.state, *there, own);
-  });
-  const VectorXd moved = linear::product(there->by_setting, plain.setting_change) - expected.mean;
-  return over_units(*there, moved, expected.by_unknown, named.covariance);
-}
-
-namespace {
-
-bool names_agree(const Fold& fold, const Analysis& a) {
-  return fold.named.empty() ? a.decision.listed.empty()
-                            : contains(a.decision.leaders(), fold.named.front());
 }
 
 /// Sets the errors of the machine as delivered, and with only the sheets' placement fitted.
@@ -240,10 +261,10 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
                  [&](std::size_t b) { folds[b] = fold_without(a, downdating, blocks.units[b]); });
   for (const auto b : each_index(folds)) {
     const Fold& fold = folds[b];
-    all.agree += names_agree(fold, a) ? 1 : 0;
+    all.agree += as_int(fold.agrees);
     append_all(all.units, fold.units);
     all.number.insert(all.number.end(), fold.units.size(), b);
-    for (std::size_t k = 0; k < all.errors.size(); ++k) {
+    for (const auto k : each_index(all.errors)) {
       append_all(all.errors[k].machine, fold.errors[k].machine);
       append_all(all.errors[k].and_surface, fold.errors[k].and_surface);
     }
@@ -318,11 +339,7 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   improvement.extended_and_surface = summarise(extension.and_surface, number, seed);
   improvement.noise_floor_mm =
       std::sqrt(a.estimate.noise_square) * noise_of_units_mm(a.system, units);
-  if (&extension != &all[kCalibrated]) {
-    const ExpectedImprovement expected = expected_improvement(a);
-    improvement.drop_mm2 = expected.drop_mm2;
-    improvement.drop_share = expected.share;
-  }
+  if (&extension != &all[kCalibrated]) expect_improvement(a, improvement);
   return improvement;
 }
 
@@ -342,7 +359,7 @@ VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stat
     if (!unit.reads_chains) continue;
     const std::size_t number = unit.places.front().place;
     const ObservationPart& part = session.parts[session.places[number].part];
-    const observation::Place& place = part.observation->places()[number - part.first_place];
+    const Place& place = part.observation->places()[number - part.first_place];
     if (!place.commanded) continue;
     e.segment<2>(unit.first_row) = unit.whitening * (stated.places[number].state.by_mark *
                                                      difference(*place.commanded, place.mark));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/kept_rows.hpp"
 
+#include "grid/diagnosis/regressor_system.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 

@@ -16,10 +16,13 @@
 #include <optional>
 #include <vector>
 
-#include "grid/diagnosis/regressor_system.hpp"
+#include "grid/containers.hpp"
 #include "interp/eigen.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+struct RegressorSystem;
 
 class KeptRows {
  public:

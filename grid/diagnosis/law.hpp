@@ -24,10 +24,49 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/diagnosis/coordinate.hpp"
 #include "model/belts/belt.hpp"
+#include "model/coordinates.hpp"
 
+namespace chaintrue::grid::estimation {
+struct SystemPlace;
+}
 namespace chaintrue::grid::diagnosis {
+
+/// A coordinate of a place where readings were taken, on which a pattern, a law or a residual may be a
+/// function: unit_of(Coordinate::tension_left) is "n", chain_of() it Side::left, and value_at() a place
+/// its newtons there.
+enum class Coordinate {
+  x,              ///< mm
+  y,              ///< mm
+  across,         ///< mm, over the bed in any direction
+  border,         ///< mm, from the nearest border of the bed inwards
+  length_left,    ///< mm
+  length_right,   ///< mm
+  angle_left,     ///< rad
+  angle_right,    ///< rad
+  tension_left,   ///< N, at the sprocket
+  tension_right,  ///< N
+  visit,          ///< number of the visit
+  length_tl,      ///< mm, of a belt
+  length_tr,      ///< mm
+  length_bl,      ///< mm
+  length_br,      ///< mm
+  angle_tl,       ///< rad, of a belt against the horizontal, at its anchor
+  angle_tr,       ///< rad
+  angle_bl,       ///< rad
+  angle_br,       ///< rad
+  place,          ///< both x and y
+};
+/// Its name in files.
+std::string_view name(Coordinate of);
+/// "mm", "rad", "n", "visit": what a parameter's name ends in.
+std::string_view unit_of(Coordinate of);
+/// The chain or belt that it belongs to, if any.
+std::optional<Side> chain_of(Coordinate of);
+std::optional<Belt> belt_of(Coordinate of);
+
+/// `across_rad`: of Coordinate::across, from x towards y. \pre A coordinate of such a machine, and not the place.
+double value_at(const estimation::SystemPlace& place, Coordinate of, double across_rad = 0.0);
 
 /// Where an unlisted pattern enters: one chain, both equally or opposite to each other, the tool
 /// along an axis of the sheet, or none of these by itself. Of a law also: the tool along the
@@ -35,8 +74,9 @@ namespace chaintrue::grid::diagnosis {
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 std::string_view name(Enters enters);
 
-/// For a law that enters a belt; null for all others.
+/// For a law that enters a belt or one chain; null for all others.
 std::optional<Belt> belt_of(Enters enters);
+std::optional<Side> chain_of(Enters enters);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
 std::string_view name(LawShape shape);

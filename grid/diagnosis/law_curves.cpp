@@ -29,8 +29,7 @@ bool may_repeat(const LawTerm& term) {
   if (term.of == Coordinate::x || term.of == Coordinate::y) return true;
   if (unit_of(term.of) != "mm") return false;
   if (const auto belt = belt_of(term.of)) return belt_of(term.enters) == belt;
-  const auto chain = chain_of(term.of);
-  return chain && term.enters == (*chain == Side::left ? Enters::left : Enters::right);
+  return chain_of(term.of) && chain_of(term.of) == chain_of(term.enters);
 }
 
 /// The shortest period: shorter ones are implausible, or no marks show them.
@@ -113,17 +112,15 @@ class CurveList {
   }
 
   StepPlaces kink_places() const {
-    std::vector<double> grid;
-    for (const int k : each_below(kKinkPlaces))
-      grid.push_back(start_.from + (k + 0.5) / kKinkPlaces * start_.span());
-    return evenly(std::move(grid));
+    return evenly(mapped(each_below(kKinkPlaces), [&](int k) {
+      return start_.from + (k + 0.5) / kKinkPlaces * start_.span();
+    }));
   }
 
   StepPlaces scales() const {
-    std::vector<double> grid;
-    for (const int k : each_below(kScales))
-      grid.push_back(kShortestScale * std::pow(kScaleFactor, k) * start_.span());
-    return evenly(std::move(grid));
+    return evenly(mapped(each_below(kScales), [&](int k) {
+      return kShortestScale * std::pow(kScaleFactor, k) * start_.span();
+    }));
   }
 
   static StepPlaces waves(double most, double step) {
@@ -340,7 +337,7 @@ std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate
 std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,
                               const LawTerm& term) {
   std::vector<LawRows> all;
-  for (const observation::PlaceColumns& own : system.units[unit].places) {
+  for (const PlaceColumns& own : system.units[unit].places) {
     const SystemPlace& place = system.places[own.place];
     if (const auto belt = belt_of(term.enters)) {
       all.push_back({value_at(place, term.of, term.direction_rad),

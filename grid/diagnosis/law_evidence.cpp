@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/law_evidence.hpp"
+#include "grid/diagnosis/laws.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -141,7 +141,7 @@ class LawSearch {
   void refine(std::vector<LawPoint>& points) {
     const LawCurve& curve = *points.front().curve;
     if (!is_continuous(curve.shape) || points.size() < 2) return;
-    for (int pass = 0; pass < 2; ++pass) {
+    for (const int pass : each_below(2)) {
       // The second pass uses the neighbours from the first.
       const auto best = max_element(points, ascending(&LawPoint::log_weight)) - points.begin();
       std::vector<LawPoint> finer;
@@ -171,8 +171,7 @@ class LawSearch {
   std::vector<LawContext> contexts_with(const std::vector<LawPoint>& chosen) {
     std::vector<LawPoint> best;
     for (const LawPoint& own : chosen) {
-      const bool known =
-          any_of(best, [&](const LawPoint& other) { return other.curve == own.curve; });
+      const bool known = any_of(best, having(&LawPoint::curve, own.curve));
       if (!known && best.size() < 3) best.push_back(own);
     }
     MatrixXd weights = system_.log_weights(contexts_, system_.take(best));

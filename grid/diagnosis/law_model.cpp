@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "grid/diagnosis/laws.hpp"
 #include "grid/plane_vectors.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -144,8 +143,8 @@ class Predictor {
  private:
   /// The prediction of the model with the law that is likeliest by the other rows.
   LawModel::Downdated::Without likeliest(const Rows& out) const {
-    std::vector<LawModel::Downdated::Without> all;
-    for (const LawModel::Downdated& model : with_) all.push_back(model.without(out));
+    const auto all =
+        mapped(with_, [&](const LawModel::Downdated& model) { return model.without(out); });
     return *max_element(all, ascending(&LawModel::Downdated::Without::log_density));
   }
 
@@ -170,11 +169,10 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a, const WeighedLaw& law
   if (quarters.empty()) return std::nullopt;
   const Predictor predictor(a, law, of_curve);
   const KeptRows& kept = marginalised_system(a, law).kept;
-  std::vector<Indices> parts;
-  for (const BedPart& quarter : quarters) {
-    parts.push_back(joins_places(a.system) ? quarter_of_places(a.system, kept, quarter.towards_rad)
-                                           : quarter.units);
-  }
+  const auto parts = mapped(quarters, [&](const BedPart& quarter) {
+    return joins_places(a.system) ? quarter_of_places(a.system, kept, quarter.towards_rad)
+                                  : quarter.units;
+  });
   return LawHeldOut{predictor.errors(folds(a.system, kept)), predictor.errors(parts)};
 }
 

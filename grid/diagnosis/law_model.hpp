@@ -18,7 +18,7 @@
 
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
-#include "grid/diagnosis/law_evidence.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -81,10 +81,10 @@ class LawModel {
         linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
     if (process_) {
       const double square = process_->sigma_mm * process_->sigma_mm;
-      across +=
-          square *
-          discrepancy_covariance(next, system_, marginalised_.kept, process_->kernel).transpose();
-      own += square * discrepancy_covariance(next, KeptRows::all(next), process_->kernel);
+      const KeptRows& kept = marginalised_.kept;
+      const KeptRows all = KeptRows::all(next);
+      across += square * discrepancy_covariance(process_->kernel, system_, kept, next, all);
+      own += square * discrepancy_covariance(process_->kernel, next, all, next, all);
     }
     const LowRankNoise noise(reduced_);
     const MatrixXd half = noise.half_solve(marginalised_.root.solve(across));

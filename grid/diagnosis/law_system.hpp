@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
-#include "grid/diagnosis/law_evidence.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
 

@@ -96,17 +96,6 @@ std::string average_in_words(const Law& law, Observations of) {
   return fmt::format("{} by {:.2f} mm", what, law.rms_mm);
 }
 
-std::string form_in_words(const Law& law) {
-  constexpr std::string_view kForms[] = {"a slope",
-                                         "a bow",
-                                         "a step",
-                                         "a kink",
-                                         "an exponential",
-                                         "a wave",
-                                         "a wave with its second harmonic"};
-  return fmt::format("{} over {}", kForms[as_size(law.shape)], variable_in_words(law));
-}
-
 std::string in_words(const Law& law) {
   constexpr std::string_view kSentences[] = {
       "{slope} {per} in proportion to {variable}, {entrance}",
@@ -117,8 +106,8 @@ std::string in_words(const Law& law) {
       "a wave of {size} mm over {variable} with period {at} {unit}, {entrance}",
       "a wave of {size} mm over {variable} with period {at} {unit} and its second harmonic of "
       "{second} mm, {entrance}"};
-  const VariableUnit& unit = *find_where(
-      kVariableUnits, [&](const VariableUnit& one) { return one.unit == unit_of(law.of); });
+  const VariableUnit& unit =
+      *find_where(kVariableUnits, having(&VariableUnit::unit, unit_of(law.of)));
   const auto words_of = [&](std::size_t k, double factor) {
     return k < law.parameters.size() ? number_words(law.parameters[k], factor) : "";
   };
@@ -229,8 +218,7 @@ std::string variable_of(const Law& law, const Bed& bed) {
 
 /// The chain whose value is the law's variable.
 bool is_of_other_chain(const Law& law) {
-  const auto chain = chain_of(law.of);
-  return chain && law.enters != (*chain == Side::left ? Enters::left : Enters::right);
+  return chain_of(law.of) && chain_of(law.of) != chain_of(law.enters);
 }
 
 /// A number with the variable's unit.
@@ -357,15 +345,20 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const Bed&
   Declaration own;
   own.id = fmt::format("{}_of_{}", name(law.shape), name(law.of));
   own.acts_on = law.of == Coordinate::visit ? ActsOn::reading : ActsOn::chain;
-  own.sides = {law.enters == Enters::left    ? EffectSide::left
-               : law.enters == Enters::right ? EffectSide::right
-                                             : EffectSide::both};
+  const auto chain = chain_of(law.enters);
+  own.sides = {!chain                 ? EffectSide::both
+               : *chain == Side::left ? EffectSide::left
+                                      : EffectSide::right};
   own.parameters = {size_of(law)};
   const bool has_place =
       law.shape == LawShape::step || law.shape == LawShape::kink || is_periodic(law.shape);
   if (has_place) own.parameters.push_back(place_of(law));
   own.adds_mm = entrance_of(law) + formula_of(law, bed);
-  own.cause = fmt::format("a cause without a name, {}", form_in_words(law));
+  own.cause =
+      fmt::format("a cause without a name, {} over {}",
+                  word_of(law.shape, {"a slope", "a bow", "a step", "a kink", "an exponential",
+                                      "a wave", "a wave with its second harmonic"}),
+                  variable_in_words(law));
   own.signature = in_words(law);
   own.remedy = "find what has this place or period, and give it a name here";
   own.not_modelled = "deviations from this form";

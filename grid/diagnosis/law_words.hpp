@@ -22,9 +22,6 @@ std::string in_words(const Law& law);
 /// "the left chain's length": its variable.
 std::string variable_in_words(const Law& law);
 
-/// "a wave over the left chain's length".
-std::string form_in_words(const Law& law);
-
 /// "moves the tool by 0.41 mm" or, for distances and belts, "changes a distance by": on average.
 std::string average_in_words(const Law& law, Observations of);
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/parallel.hpp"
@@ -172,7 +171,7 @@ FoundLaw law_of(const Analysis& a, const LawPoints& points, double log_all) {
 Indices systems_to_weigh(const ModelComparison& comparison) {
   const auto rejected = [&](std::size_t k) {
     const Flags& outliers = comparison.marginalised_systems[k].outliers;
-    return std::count(outliers.begin(), outliers.end(), true);
+    return count_equal(outliers, true);
   };
   Indices numbers = {comparison.best().marginalised};
   std::size_t fewest = numbers.front();
@@ -186,14 +185,12 @@ Indices systems_to_weigh(const ModelComparison& comparison) {
 }  // namespace
 
 double probability_of_any(const std::vector<LawEvidence>& evidence) {
-  std::vector<double> without;
-  for (const LawEvidence& own : evidence) without.push_back(own.log_without);
-  return std::max(0.0, -std::expm1(log_sum(without) - log_total(evidence)));
+  return std::max(
+      0.0, -std::expm1(log_sum(mapped(evidence, &LawEvidence::log_without)) - log_total(evidence)));
 }
 
 LawsFound laws_found(const Analysis& a) {
   LawsFound found;
-  if (a.options.given_cause) return found;
   std::vector<LawCurve> curves = law_curves(a.system);
   // Coordinates on several sheets have different frames; chains share one.
   if (a.session.sheets > 1) {

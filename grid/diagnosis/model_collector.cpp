@@ -7,12 +7,17 @@
 #include <map>
 #include <utility>
 
-#include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 namespace {
+
+/// The set with one more column.
+ColumnSet with_column(ColumnSet set, Index column) {
+  set.insert(std::lower_bound(set.begin(), set.end(), column), column);
+  return set;
+}
 
 /// It acts from one visit on.
 bool sets_in_at_a_visit(const Regressor& r) {
@@ -23,10 +28,7 @@ bool sets_in_at_a_visit(const Regressor& r) {
 }  // namespace
 
 bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits) {
-  const auto sets_in = [](const Regressor& r) {
-    return r.cause.effect->parameters.size() > 1 && r.cause.effect->parameters.back().integer;
-  };
-  if (limits.one_event_visits > 0.0 && sets_in(a) && sets_in(b) &&
+  if (limits.one_event_visits > 0.0 && a.sets_in() && b.sets_in() &&
       std::abs(a.values.back() - b.values.back()) <= limits.one_event_visits) {
     return false;
   }
@@ -46,13 +48,12 @@ double score_alone(const Regressor& regressor, double c, double square) {
   return regressor.fixed ? 2.0 * c - square : c * c / square;
 }
 
-ModelCollector::ModelCollector(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised, std::size_t number,
-                               const ComparisonOptions& options)
+ModelCollector::ModelCollector(const RegressorSystem& system, MarginalisedSystem& marginalised,
+                               std::size_t number, const SearchLimits& limits)
     : system_(system),
       marginalised_(marginalised),
       number_(number),
-      options_(options),
+      limits_(limits),
       noise_(system.noise_dof, marginalised.kept.size()),
       best_(kMinusInfinity) {}
 
@@ -88,27 +89,15 @@ double ModelCollector::log_prior_of(const RegressorSet& regressors, int discrepa
   return value;
 }
 
-ColumnSet with_column(ColumnSet set, Index column) {
-  set.insert(std::lower_bound(set.begin(), set.end(), column), column);
-  return set;
-}
-
-GrowingSets::GrowingSets(const RegressorSystem& system, const NormalEquations& equations,
-                         int discrepancy, const SearchLimits& limits, ModelCollector& collector)
-    : system_(system),
-      equations_(equations),
-      discrepancy_(discrepancy),
-      limits_(limits),
-      collector_(collector) {}
-
 void GrowingSets::weigh(const ColumnSet& set) {
   if (known_.insert(set).second)
     weighed_[set.size()].push_back({collector_.consider(set, discrepancy_, equations_), set});
 }
 
 bool GrowingSets::fits(const ColumnSet& set, Index column) const {
-  return all_of(
-      set, [&](Index other) { return compatible(regressor(column), regressor(other), limits_); });
+  return all_of(set, [&](Index other) {
+    return compatible(regressor(column), regressor(other), collector_.limits());
+  });
 }
 
 void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
@@ -128,13 +117,12 @@ void GrowingSets::grow(std::size_t size, const GrowthLimits& limits,
   }
 }
 
-void search_by_beam(const RegressorSystem& system, const NormalEquations& equations,
-                    int discrepancy, const SearchLimits& limits, ModelCollector& collector) {
+void search_by_beam(const NormalEquations& equations, int discrepancy, ModelCollector& collector) {
   // Number of sets of none, one, two and three causes that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
-  const GrowingSets sets(system, equations, discrepancy, limits, collector);
+  const GrowingSets sets(equations, discrepancy, collector);
   collector.consider({}, discrepancy, equations);
-  const EvidenceBounds bounds(equations, system.regressors, collector.noise());
+  const EvidenceBounds bounds(equations, collector.system().regressors, collector.noise());
   std::vector<WeighedSet> parents = {{0.0, {}}};
   for (std::size_t size = 1; size <= kMostCauses; ++size) {
     const std::size_t extended = size < kMostCauses ? kExtended.at(size) : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Computes the weights of sets of causes in one marginalised system and keeps the relevant ones.
+/// The weights of sets of causes in one marginalised system, and the search for the relevant ones.
 #pragma once
 
 #include <set>
@@ -23,8 +23,12 @@ double score_alone(const Regressor& regressor, double c, double square);
 class ModelCollector {
  public:
   /// `number` is the marginalised system's in its comparison; the references must outlive this.
-  ModelCollector(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                 std::size_t number, const ComparisonOptions& options);
+  ModelCollector(const RegressorSystem& system, MarginalisedSystem& marginalised,
+                 std::size_t number, const SearchLimits& limits);
+
+  const RegressorSystem& system() const { return system_; }
+  MarginalisedSystem& marginalised() const { return marginalised_; }
+  const SearchLimits& limits() const { return limits_; }
 
   /// Returns a set's weight and keeps the set if relevant; minus infinity if it is impossible.
   double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
@@ -40,9 +44,9 @@ class ModelCollector {
 
  private:
   const RegressorSystem& system_;
-  const MarginalisedSystem& marginalised_;
+  MarginalisedSystem& marginalised_;
   std::size_t number_;
-  const ComparisonOptions& options_;
+  const SearchLimits& limits_;
   NoiseDensity noise_;
   std::vector<CandidateModel> models_;
   double best_;
@@ -58,13 +62,13 @@ struct GrowthLimits {
 class GrowingSets {
  public:
   /// All references must outlive this; all sets go to the collector.
-  GrowingSets(const RegressorSystem& system, const NormalEquations& equations, int discrepancy,
-              const SearchLimits& limits, ModelCollector& collector);
+  GrowingSets(const NormalEquations& equations, int discrepancy, ModelCollector& collector)
+      : equations_(equations), discrepancy_(discrepancy), collector_(collector) {}
 
   void weigh(const ColumnSet& set);
   const std::vector<WeighedSet>& of_size(std::size_t size) const { return weighed_[size]; }
   const Regressor& regressor(Index column) const {
-    return system_.regressor(equations_.columns[as_size(column)]);
+    return collector_.system().regressor(equations_.columns[as_size(column)]);
   }
   /// Whether the columns may act together.
   bool fits(const ColumnSet& set, Index column) const;
@@ -73,21 +77,16 @@ class GrowingSets {
             const std::function<ColumnSet(const ColumnSet&)>& extensions);
 
  private:
-  const RegressorSystem& system_;
   const NormalEquations& equations_;
   int discrepancy_;
-  const SearchLimits& limits_;
   ModelCollector& collector_;
   std::set<ColumnSet> known_;
   std::array<std::vector<WeighedSet>, kMostCauses + 1> weighed_;
 };
-/// The set with one more column.
-[[nodiscard]] ColumnSet with_column(ColumnSet set, Index column);
 
 /// Sets of up to kMostCauses columns grown from nothing by a beam search, given one discrepancy or
 /// none; all go to the collector.
-void search_by_beam(const RegressorSystem& system, const NormalEquations& equations,
-                    int discrepancy, const SearchLimits& limits, ModelCollector& collector);
+void search_by_beam(const NormalEquations& equations, int discrepancy, ModelCollector& collector);
 
 /// The sets of causes that matter given a model discrepancy, in one marginalised system. Every kernel and
 /// strength is looked at with nothing, with each cause alone and with the best sets that were found without a
@@ -98,11 +97,44 @@ void search_by_beam(const RegressorSystem& system, const NormalEquations& equati
 /// the best sets of two and more of these, best first; `kernels`: those to try. Models go to the
 /// collector. Notes the traces in the marginalised system. Returns of each of `kernels` the largest
 /// weight that it was found to have.
-std::vector<double> search_given_discrepancies(const RegressorSystem& system,
-                                               MarginalisedSystem& marginalised,
-                                               const ComparisonOptions& options,
-                                               const NormalEquations& plain,
+std::vector<double> search_given_discrepancies(const NormalEquations& plain,
                                                const std::vector<RegressorSet>& best_models,
                                                const Indices& kernels, ModelCollector& collector);
+
+/// Searches the relevant sets of causes in one marginalised system: all sets of one and two
+/// causes, sets of three and four grown from the best, and the leading ones again given a model
+/// discrepancy.
+class SetSearch {
+ public:
+  /// `number` is the marginalised system's in its comparison; all references must outlive the
+  /// search.
+  SetSearch(const RegressorSystem& system, MarginalisedSystem& marginalised, std::size_t number,
+            const SearchLimits& limits)
+      : collector_(system, marginalised, number, limits), sets_(equations_, -1, collector_) {}
+
+  SetSearch(const SetSearch&) = delete;
+
+  std::vector<CandidateModel> run();
+  /// Call after run(). For these kernels; sets their weights.
+  std::vector<CandidateModel> run_given_discrepancies(const Indices& kernels,
+                                                      std::vector<double>& kernel_weight);
+  /// Largest weight so far.
+  double best() const { return collector_.best(); }
+  const Flags& outliers() const { return collector_.marginalised().outliers; }
+
+ private:
+  /// Regressors to keep: all without whole numbers, except that effects at a visit keep their best
+  /// visits; of the others the best, alone or after projection on a leading regressor.
+  RegressorSet columns() const;
+  /// Upper bound of a pair's weight, ignoring bounds and larger noise.
+  double quick_weight(Index i, Index j) const;
+  void pairs();
+  /// The columns that explain most of what a set leaves.
+  ColumnSet extensions(const ColumnSet& parent) const;
+
+  ModelCollector collector_;
+  NormalEquations equations_;
+  GrowingSets sets_;
+};
 
 }  // namespace chaintrue::grid::diagnosis

@@ -6,8 +6,8 @@
 #include <deque>
 
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/diagnosis/outlier_search.hpp"
-#include "grid/diagnosis/set_search.hpp"
+#include "grid/diagnosis/model_collector.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -28,7 +28,6 @@ std::vector<RegressorSet> first_hypotheses(const RegressorSystem& system, const 
   const MarginalisedSystem marginalised = marginalise(system, excluded);
   std::vector<RegressorSet> hypotheses = {{}};
   for (const CauseScore& own : single_scores(system, marginalised, marginalised.e)) {
-    if (options.given_cause && own.cause != *options.given_cause) continue;
     if (own.best_regressor >= 0) hypotheses.push_back({own.best_regressor});
   }
   append_all(hypotheses, options.hypotheses);
@@ -51,9 +50,7 @@ double ModelComparison::probability(const CandidateModel& model) const {
 
 void sort_by_weight(ModelComparison& comparison) {
   stable_sort(comparison.models, descending(&CandidateModel::log_weight));
-  std::vector<double> weights;
-  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
-  comparison.log_total = log_sum(weights);
+  comparison.log_total = log_sum(mapped(comparison.models, &CandidateModel::log_weight));
 }
 
 double log_prior(const RegressorSystem& system, const RegressorSet& set, bool discrepancy) {
@@ -75,10 +72,10 @@ double log_prior(const RegressorSystem& system, const RegressorSet& set, bool di
 
 double log_odds_of_another(const RegressorSystem& system, const RegressorSet& set,
                            bool discrepancy) {
-  const auto lasting = as_size(std::count_if(set.begin(), set.end(), [&](int k) {
+  const auto lasting = count_where(set, [&](int k) {
     const Regressor& d = system.regressor(k);
     return !d.expected && !d.slip;
-  }));
+  });
   if (lasting == kMostCauses) return kMinusInfinity;
   const double odds = discrepancy ? system.prior.odds_given_discrepancy : 1.0;
   return std::log(prior_of_count(lasting + 1, odds) / prior_of_count(lasting, odds)) +
@@ -146,8 +143,8 @@ std::vector<Flags> sets_without_links(const RegressorSystem& system, const Flags
     if (!links) continue;
     Flags without = marginalised.outliers;
     without[i] = false;
-    const bool known = any_of(comparison.marginalised_systems,
-                              [&](const MarginalisedSystem& s) { return s.outliers == without; });
+    const bool known =
+        any_of(comparison.marginalised_systems, having(&MarginalisedSystem::outliers, without));
     if (!known) result.push_back(std::move(without));
   }
   return result;
@@ -175,7 +172,7 @@ class Comparer {
       auto& systems = comparison_.marginalised_systems;
       if (systems.size() == kMostOutlierSets) break;
       systems.push_back(marginalise(system_, outliers));
-      searches.emplace_back(system_, systems.back(), systems.size() - 1, options_);
+      searches.emplace_back(system_, systems.back(), systems.size() - 1, options_.search);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
     }

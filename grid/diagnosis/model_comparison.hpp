@@ -9,9 +9,13 @@
 /// three and four at a time from the best of those.
 #pragma once
 
-#include <optional>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/evidence.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
@@ -65,8 +69,6 @@ struct ComparisonOptions {
   bool discrepancies = true;
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   Indices kernels{};
-  /// If set, only this cause may act.
-  std::optional<CauseId> given_cause{};
   SearchLimits search{};
   /// Further sets of regressors that search for outliers, besides nothing and each cause alone.
   std::vector<RegressorSet> hypotheses{};
@@ -104,5 +106,40 @@ std::vector<CauseScore> single_scores(const std::vector<Regressor>& regressors, 
 /// Those of a residual in a marginalised system.
 std::vector<CauseScore> single_scores(const RegressorSystem& system,
                                       const MarginalisedSystem& marginalised, const VectorXd& e);
+
+/// Sets of readings that some hypothesis would reject, by mean shifts (outlier_search.cpp).
+/// Returns a flag for each outlier group of the system, the most probable set first; groups of units that
+/// are excluded beforehand are flagged in all of them. Where a set takes all directions of some
+/// rows, all groups of these rows are flagged. `hypotheses` are sets of regressors.
+std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excluded,
+                                const std::vector<RegressorSet>& hypotheses);
+
+// Sorted lists are cut without splitting ties. Two phases of a wave half a turn apart have the same
+// column up to its sign and score equally up to rounding; a cut between them would depend on the
+// last bit of a sine.
+
+/// Scores are squares of sigmas or logarithms of odds: rounding changes them by 1e-10, and a
+/// difference of a millionth is irrelevant.
+inline constexpr double kTied = 1e-6;
+
+inline bool tied(double a, double b) { return std::abs(a - b) < kTied; }
+
+/// The `most` best of a list by a score, best first, and those that tie with the last.
+template <typename List, typename Score>
+void keep_best(List& list, std::size_t most, const Score& score) {
+  stable_sort(list, descending(score));
+  std::size_t count = std::min(most, list.size());
+  while (count > 0 && count < list.size() &&
+         tied(std::invoke(score, list[count]), std::invoke(score, list[most - 1])))
+    ++count;
+  list.resize(count);
+}
+/// Regressors with a score.
+using ScoredRegressors = std::vector<std::pair<double, int>>;
+/// By the first of each pair.
+template <typename Other>
+void keep_best(std::vector<std::pair<double, Other>>& scored, std::size_t most) {
+  keep_best(scored, most, &std::pair<double, Other>::first);
+}
 
 }  // namespace chaintrue::grid::diagnosis

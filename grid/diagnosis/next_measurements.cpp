@@ -7,11 +7,9 @@
 #include <cmath>
 
 #include "grid/diagnosis/law_model.hpp"
-#include "grid/diagnosis/other_places.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/raster.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -29,8 +27,8 @@ struct CandidateReadings {
 CandidateReadings candidate_points(const Analysis& a, std::size_t part) {
   const observation::Observation& own = *a.session.parts[part].observation;
   int next_visit = 1;
-  for (const observation::Place& p : own.places()) next_visit = std::max(next_visit, p.order + 1);
-  std::vector<observation::Place> places;
+  for (const Place& p : own.places()) next_visit = std::max(next_visit, p.order + 1);
+  std::vector<Place> places;
   std::vector<Candidate> all;
   const auto add = [&](MarkPoint mark, MeasurementKind kind, std::string what) {
     const auto row = 2 * std::ssize(places);
@@ -48,10 +46,10 @@ CandidateReadings candidate_points(const Analysis& a, std::size_t part) {
     if (view.chains().at(view.sheet.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
   }
   if (own.ordered()) {
-    const observation::Place& first = own.places().front();
+    const Place& first = own.places().front();
     add(first.mark, MeasurementKind::revisit,
         fmt::format("point {}, the first of the session, again", first.index + 1));
-    const observation::Place& middle = own.places()[own.places().size() / 2];
+    const Place& middle = own.places()[own.places().size() / 2];
     add(middle.mark, MeasurementKind::revisit,
         fmt::format("point {} again, coming from the other side", middle.index + 1));
   }
@@ -95,7 +93,7 @@ constexpr std::size_t kArms = 3;
 
 class HoleCandidates {
  public:
-  HoleCandidates(const Analysis& a, const observation::TapeDistances& tape, std::size_t part)
+  HoleCandidates(const Analysis& a, const TapeDistances& tape, std::size_t part)
       : a_(a), part_(part), measured_(tape.set()), set_(measured_) {
     set_.distances.clear();
     add_pairs();
@@ -105,11 +103,10 @@ class HoleCandidates {
 
   std::optional<CandidateReadings> take() {
     if (candidates_.empty()) return std::nullopt;
-    auto tape = observation::TapeDistances::in_given_order(std::move(set_));
+    auto tape = TapeDistances::in_given_order(std::move(set_));
     if (!tape) return std::nullopt;
-    return CandidateReadings{
-        {std::make_shared<const observation::TapeDistances>(*std::move(tape)), part_},
-        std::move(candidates_)};
+    return CandidateReadings{{std::make_shared<const TapeDistances>(*std::move(tape)), part_},
+                             std::move(candidates_)};
   }
 
  private:
@@ -133,8 +130,7 @@ class HoleCandidates {
 
   /// To edges only if some were measured before: a first one only places the sheet.
   void add_edges() {
-    const bool edged =
-        any_of(measured_.distances, [](const HoleDistance& d) { return d.edge.has_value(); });
+    const bool edged = any_of(measured_.distances, &HoleDistance::edge);
     if (!edged) return;
     for (const auto i : each_index(measured_.holes)) {
       for (const SheetEdge edge : kSheetEdges) add({.from = i, .edge = edge});
@@ -154,7 +150,7 @@ class HoleCandidates {
     MeasuredHoles alone = measured_;
     alone.holes = {hole};
     alone.distances.clear();
-    const auto one = observation::TapeDistances::in_given_order(std::move(alone));
+    const auto one = TapeDistances::in_given_order(std::move(alone));
     return one && one->placed(a_.state.view(a_.session.parts[part_]));
   }
 
@@ -163,11 +159,11 @@ class HoleCandidates {
     if (distance_mm(measured_.holes[others.back()].commanded, place) < kApartMm) return;
     const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};
     if (!can_be_cut(hole)) return;
-    Candidate candidate{{MeasurementKind::distance, "", "", model::identity_placement(place),
-                         measured_.tape.sigma_mm},
-                        {},
-                        1};
-    for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
+    Candidate candidate{
+        {MeasurementKind::distance, "", "", identity_placement(place), measured_.tape.sigma_mm},
+        {},
+        1};
+    for (const std::size_t k : each_below(std::min(kArms, others.size()))) {
       candidate.rows.push_back(std::ssize(set_.distances));
       set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);
@@ -219,7 +215,7 @@ NextCandidates next_candidates(const Analysis& a) {
       take(candidate_points(a, part));
       chains_read = true;
     }
-    const auto* tape = dynamic_cast<const observation::TapeDistances*>(own.observation.get());
+    const auto* tape = dynamic_cast<const TapeDistances*>(own.observation.get());
     if (tape != nullptr) take(HoleCandidates(a, *tape, part).take());
   }
   take(candidate_readings(a.session));
@@ -240,14 +236,9 @@ void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   const bool pitch = any_of(members, [](const CauseId& c) {
     return c.effect->elongation != nullptr && c.effect->law == nullptr;
   });
-  const auto proposes_it = [](const NextMeasurement& next) {
-    return next.reading == ReadingOf::link_pitch;
-  };
-  const auto is_pitch = [](const ExtraReading& taken) {
-    return taken.what == ReadingOf::link_pitch;
-  };
-  if (members.size() < 2 || !pitch || any_of(list, proposes_it) ||
-      any_of(a.session.readings(), is_pitch)) {
+  if (members.size() < 2 || !pitch ||
+      any_of(list, having(&NextMeasurement::reading, ReadingOf::link_pitch)) ||
+      any_of(a.session.readings(), having(&ExtraReading::what, ReadingOf::link_pitch))) {
     return;
   }
   NextMeasurement reading{MeasurementKind::reading, "", "left", std::nullopt, kLinkPitchSigmaMm};
@@ -317,32 +308,22 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
   return result;
 }
 
-namespace {
-
-/// The prediction of future rows by a model of these causes and a law's amplitudes, with its columns there.
-Alternative expected_with(const Analysis& a, const ObservationSet& session,
-                          const RegressorSystem& next, const LawModel& model,
-                          const RegressorSet& causes, const MatrixXd& law) {
-  MatrixXd columns = MatrixXd::Zero(next.e.size(), std::ssize(causes) + law.cols());
-  for (const auto k : each_index(causes)) {
-    if (const auto g = signature(session, a.state, next, a.system.regressor(causes[k])))
-      columns.col(as_index(k)) = *g;
-  }
-  columns.rightCols(law.cols()) = law;
-  return model.expected_of(next, columns);
-}
-
-}  // namespace
-
 std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& found) {
   if (found.laws.empty() || found.laws.front().probability >= kEnough) return {};
   NextCandidates next = next_candidates(a);
   const auto system = linearise(next.session, a.state);
   if (!system) return {};
   std::vector<Alternative> alternatives;
-  const auto add = [&](const LawModel& model, const ActsBesides& besides, const MatrixXd& law,
+  // The prediction by a model of these causes and a law's amplitudes, with its columns there.
+  const auto add = [&](const LawModel& model, const RegressorSet& causes, const MatrixXd& law,
                        double probability) {
-    Alternative one = expected_with(a, next.session, *system, model, besides.causes, law);
+    MatrixXd columns = MatrixXd::Zero(system->e.size(), std::ssize(causes) + law.cols());
+    for (const auto k : each_index(causes)) {
+      if (const auto g = signature(next.session, a.state, *system, regressor(a, causes[k])))
+        columns.col(as_index(k)) = *g;
+    }
+    columns.rightCols(law.cols()) = law;
+    Alternative one = model.expected_of(*system, columns);
     one.group = alternatives.size();
     one.probability = probability;
     alternatives.push_back(std::move(one));
@@ -350,13 +331,13 @@ std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& f
   double none = 1.0;
   for (const auto k : each_index(found.laws)) {
     const WeighedLaw& law = found.heaviest[k];
-    add(model_with(a, law), law.with, law.columns(*system), found.laws[k].probability);
+    add(model_with(a, law), law.with.causes, law.columns(*system), found.laws[k].probability);
     none -= found.laws[k].probability;
   }
   // Averaging over parts of the bed may leave almost no weight for the rest.
   constexpr double kLeastOfNone = 0.01;
   const WeighedLaw& first = found.heaviest.front();
-  add(model_without(a, first), first.without, MatrixXd(system->e.size(), 0),
+  add(model_without(a, first), first.without.causes, MatrixXd(system->e.size(), 0),
       std::max(none, kLeastOfNone));
   normalise(alternatives);
   return most_telling(alternatives, std::move(next.all));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/observations.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated, const Measure
   RepeatScatter scatter({usual.length_mm, usual.position_mm}, rounding_noise(grid));
   for (const auto& group : repeat_groups(points)) {
     for (const std::size_t i : group) {
-      const auto reading = model.at(model::identity_placement(points[i].mark));
+      const auto reading = model.at(identity_placement(points[i].mark));
       if (!reading) continue;
       scatter.add({points[i].lengths.left_mm - reading->lengths.left_mm,
                    points[i].lengths.right_mm - reading->lengths.right_mm},
@@ -152,11 +152,9 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
                   "--noise-position-mm), or measure at least six points twice");
   }
   // Orders of different sessions are unrelated.
-  const bool ordered = !so_far.ordered && all_of(grid.points, [](const MeasuredPoint& p) {
-    return p.order.has_value();
-  });
+  const bool ordered = !so_far.ordered && all_of(grid.points, &MeasuredPoint::order);
   so_far.ordered = so_far.ordered || ordered;
-  std::vector<observation::Place> places;
+  std::vector<Place> places;
   for (const LengthPoint& point : *lengths) {
     const std::size_t index = first_index + point.index;
     places.push_back({index, fmt::format("{}", index + 1), point.mark, point.lengths,
@@ -164,7 +162,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   }
   std::optional<observation::SheetPrior> sheet;
   if (grid.sheet) sheet = {grid.sheet->shift_mm, 1e-3 * grid.sheet->rotation_mrad};
-  return std::make_shared<const observation::ChainLengthReadings>(
+  return std::make_shared<const ChainLengthReadings>(
       std::move(places), ordered,
       observation::PointNoise{std::max(noise->length_mm, kFinestLengthNoiseMm), noise->position_mm},
       noise->dof, sheet);
@@ -244,9 +242,9 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
     for (Hole& hole : set.holes) {
       if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
     }
-    auto distances = observation::TapeDistances::of(set, first);
+    auto distances = TapeDistances::of(set, first);
     if (!distances) return failed(Reason::point_unreachable, distances.error());
-    add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
+    add(std::make_shared<const TapeDistances>(*std::move(distances)));
     first.hole += set.holes.size();
     first.distance += set.distances.size();
   }

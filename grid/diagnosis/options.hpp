@@ -5,7 +5,6 @@
 
 #include <compare>
 #include <cstdint>
-#include <optional>
 
 #include "grid/progress.hpp"
 #include "model/failure.hpp"
@@ -35,8 +34,6 @@ struct DiagnosisOptions {
   bool order_assumed = false;  ///< the points' order is assumed, not recorded
   /// Chain or paper, which no points distinguish: the owner states that it is the chain.
   bool accept_class = false;
-  /// Only this cause is considered.
-  std::optional<CauseId> given_cause{};
   /// Average the probabilities over parts of the bed if there is a pattern (bed_parts.hpp).
   bool average_parts = true;
   Progress progress{};

@@ -25,8 +25,7 @@ constexpr std::size_t kMostModels = 5;
 const MeasuredGrid* grid_without_order(const Measured& measured) {
   if (measured.files().empty()) return nullptr;
   for (const MeasuredGrid* grid : measured.grids()) {
-    const bool numbered =
-        any_of(grid->points, [](const MeasuredPoint& point) { return point.order.has_value(); });
+    const bool numbered = any_of(grid->points, &MeasuredPoint::order);
     if (numbered) return nullptr;
   }
   return measured.files().front().grid();
@@ -131,9 +130,8 @@ OrderColumns order_columns(const Analysis& a, const Measured& ordered) {
   if (!system) return result;
   std::vector<CauseId> causes;
   for (const CauseId& cause : candidates(*set).testable) {
-    const bool at_a_visit = any_of(cause.effect->parameters, [](const auto& parameter) {
-      return parameter.role == ParameterRole::place;
-    });
+    const bool at_a_visit =
+        any_of(cause.effect->parameters, having(&EffectParameter::role, ParameterRole::place));
     if (cause.effect->needs == DataNeed::order && !at_a_visit) causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
@@ -174,10 +172,9 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
     if (!ordered) continue;
     const OrderColumns columns = order_columns(a, *ordered);
     if (columns.regressors.empty()) continue;
-    std::vector<double> terms;
-    for (const GivenModel& model : models)
-      terms.push_back(model.log_weight + log_order_factor(columns, model, a.system.noise_dof));
-    result[k] = log_sum(terms);
+    result[k] = log_sum(mapped(models, [&](const GivenModel& model) {
+      return model.log_weight + log_order_factor(columns, model, a.system.noise_dof);
+    }));
     tried += 1.0;
   }
   std::vector<double> all = {a.comparison.log_total};
@@ -235,8 +232,7 @@ std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder
   const MeasuredGrid* grid = grid_without_order(measured);
   if (grid == nullptr) return std::nullopt;
   const Indices places = by_place(grid->points);
-  std::vector<MeasuredPoint> points;
-  for (const std::size_t i : places) points.push_back(grid->points[i]);
+  const auto points = mapped(places, [&](std::size_t i) { return grid->points[i]; });
   const auto numbers = visit_numbers(points, order);
   if (!numbers) return std::nullopt;
   MeasuredGrid numbered = *grid;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/outlier_search.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,6 +7,20 @@
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
+
+// Finds sets of readings that some hypothesis would reject, by mean shifts: each group of rows'
+// directions that one slip spoils has its own shift, the groups are added one after the
+// other, and the nested set with the best evidence is used.
+//
+// Notation, in addition to evidence.hpp
+//   P    precision of the kept rows, sizes of regressors and shifts so far unknown
+//   u    P times the residual
+//   D    directions of a group among its rows, orthonormal
+//
+//   drop = u' D (D' P D)^-1 D' u,   log |V| grows by log |D' P D|                             (1)
+//
+// Source: R. Cook and S. Weisberg, Residuals and Influence in Regression (1982), section 2.2.2,
+// for the mean-shift model.
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -270,7 +283,7 @@ std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excl
   for (const auto& set : hypotheses) {
     FoundSet one = search(under(nothing, marginalised, system, set), system, marginalised, free,
                           beforehand, log_prior(system, set, false));
-    auto* same = find_where(found, [&](const FoundSet& f) { return f.outliers == one.outliers; });
+    auto* same = find_where(found, having(&FoundSet::outliers, one.outliers));
     if (same == nullptr) {
       found.push_back(std::move(one));
     } else {

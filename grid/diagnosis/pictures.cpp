@@ -64,8 +64,8 @@ PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size
   return p;
 }
 
-DistancePicture picture_of(const Analysis& a, const Residuals& residuals,
-                           const observation::TapeDistances& tape, std::size_t k, std::size_t u) {
+DistancePicture picture_of(const Analysis& a, const Residuals& residuals, const TapeDistances& tape,
+                           std::size_t k, std::size_t u) {
   const MeasuredHoles& set = tape.set();
   const HoleDistance& distance = set.distances[k];
   const auto mm = [&](const VectorXd& whitened) {
@@ -109,10 +109,10 @@ std::vector<HolePicture> hole_pictures(const Analysis& a) {
   const State state =
       with_settings(a.session, a.state, a.system.setting + a.estimate.setting_change);
   std::map<std::size_t, HolePicture> by_index;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
+  for (const auto& [part, tape] : parts_of<TapeDistances>(a.session)) {
     const auto places = tape->placed(state.view(*part));
     for (const auto i : each_index(tape->places())) {
-      const observation::Place& hole = tape->places()[i];
+      const Place& hole = tape->places()[i];
       by_index[hole.index] = {hole.name, hole.mark, places ? (*places)[i].mark : hole.mark};
     }
   }
@@ -125,7 +125,7 @@ std::vector<DistancePicture> distance_pictures(const Analysis& a) {
   if (!a.session.has_distances()) return {};
   const Residuals residuals = residuals_of(a);
   std::vector<DistancePicture> result;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
+  for (const auto& [part, tape] : parts_of<TapeDistances>(a.session)) {
     for (const auto k : each_index(tape->units())) {
       result.push_back(picture_of(a, residuals, *tape, k, part->first_unit + k));
     }

@@ -104,7 +104,7 @@ const EffectParameter* place_parameter(const Effect& effect) {
 }
 
 PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place) {
-  if (effect.law != nullptr) return model::effects::place_variable(effect);
+  if (effect.law != nullptr) return place_variable(effect);
   if (place.integer) return PlaceVariable::visit;
   return place.upper - place.lower >= 2.0 * std::numbers::pi ? PlaceVariable::phase
                                                              : PlaceVariable::angle;
@@ -155,7 +155,7 @@ std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId caus
 }
 
 bool has_step(const Effect& effect) {
-  const model::effects::Declaration* declared = model::effects::declaration_of(effect);
+  const model::effects::Declaration* declared = declaration_of(effect);
   if (declared == nullptr || declared->adds_mm.find("step(") == std::string::npos) return false;
   const PlaceVariable of = variable_of_place(effect, *place_parameter(effect));
   return of != PlaceVariable::phase && of != PlaceVariable::none && of != PlaceVariable::visit;

@@ -22,14 +22,44 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/observations.hpp"
+#include "grid/diagnosis/options.hpp"
 #include "grid/estimation/linearised_system.hpp"
+#include "grid/estimation/observation_set.hpp"
+#include "grid/observation/measured.hpp"
 #include "grid/precondition.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+using estimation::FollowUp;
+using estimation::NumberedPlace;
+using estimation::NumberedUnit;
+using estimation::ObservationPart;
+using estimation::ObservationSet;
+using observation::ChainLengthReadings;
+using observation::Place;
+using observation::PlaceColumns;
+using observation::TapeDistances;
+using State = estimation::MachineState;
+
+/// With fewer points no residual remains after fitting the settings.
+inline constexpr std::size_t kFewestPoints = 8;
+/// Distances determine four of the six settings; two more are needed for a cause, and two to check
+/// it.
+inline constexpr std::size_t kFewestDistances = 8;
+/// This many must remain after rejection.
+inline constexpr std::size_t kFewestGoodDistances = 6;
+
+/// Whether the distance between these holes, or to this edge, was measured.
+bool is_measured(const MeasuredHoles& set, const HoleDistance& wanted);
+
+/// The machine is that of the first file; observations in the order of the files, points first, the
+/// readings of the machine itself last. Fails with a sentence if there is no machine, too little
+/// was measured, or a command is out of reach.
+[[nodiscard]] tl::expected<ObservationSet, DiagnosisFailure> observations_of(
+    const Measured& measured);
 
 // A matrix whose columns are multiples of fewer: two lost links have twice the effect of one, at
 // each of hundreds of visits. Only distinct columns are stored, so time and memory depend on their
@@ -164,6 +194,12 @@ struct Regressor : SizedCause {
   double visits = 0.0;
   /// Share of this side, place and whole number within the effect (whole numbers: analysis.cpp).
   double log_prior = 0.0;
+
+  /// It sets in at one of the visits.
+  bool sets_in() const {
+    const auto& parameters = cause.effect->parameters;
+    return parameters.size() > 1 && parameters.back().integer;
+  }
 };
 
 /// Readings that one slip spoils together, as a direction of one or two consecutive rows. Groups of

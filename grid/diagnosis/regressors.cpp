@@ -21,7 +21,7 @@ std::vector<const Effect*> effects_of(const State& state) {
 
 /// The state with one more effect. \pre problems_with_effect() has none.
 State with_effect(State state, CauseId cause, const std::vector<double>& values) {
-  const AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  const AppliedEffect own = applied(*cause.effect, cause.side, values);
   if (state.mechanism) {
     state.mechanism = state.mechanism->with_effects({own});
   } else {
@@ -32,7 +32,7 @@ State with_effect(State state, CauseId cause, const std::vector<double>& values)
 
 std::vector<model::MachineProblem> problems_with_effect(const State& state, CauseId cause,
                                                         const std::vector<double>& values) {
-  const AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  const AppliedEffect own = applied(*cause.effect, cause.side, values);
   if (state.mechanism) return state.mechanism->problems_of_effects({own});
   Machine machine = state.machine;
   machine.effects.push_back(own);
@@ -50,13 +50,11 @@ std::optional<VectorXd> predicted(const ObservationSet& session, const State& st
   return all;
 }
 
-bool is_of_readings(CauseId cause) { return cause.effect->station == Station::reading; }
-
 /// What an effect adds to the chains at a place, or to the written readings there.
 Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, CauseId cause,
                   const std::vector<double>& values) {
   Vector2d mm = Vector2d::Zero();
-  if (is_of_readings(cause) && !place.ordered) return mm;
+  if (cause.effect->station == Station::reading && !place.ordered) return mm;
   const model::Pose& pose = place.state.reading.pose;
   for (const Side side : kSides) {
     if (!model::effects::acts_on(cause.side, side)) continue;
@@ -71,13 +69,12 @@ Vector2d added_at(const SystemPlace& place, const model::Sprocket& sprocket, Cau
 /// are unchanged.
 VectorXd added(const RegressorSystem& system, const model::Sprocket& sprocket, CauseId cause,
                const std::vector<double>& values) {
-  std::vector<Vector2d> mm;
-  for (const SystemPlace& place : system.places) {
-    mm.push_back(added_at(place, sprocket, cause, values));
-  }
+  const auto mm = mapped(system.places, [&](const SystemPlace& place) {
+    return added_at(place, sprocket, cause, values);
+  });
   VectorXd column = VectorXd::Zero(system.e.size());
   for (const SystemUnit& unit : system.units) {
-    for (const observation::PlaceColumns& place_columns : unit.places) {
+    for (const PlaceColumns& place_columns : unit.places) {
       column.segment(unit.first_row, unit.rows) += place_columns.by_chain * mm[place_columns.place];
     }
   }
@@ -104,8 +101,6 @@ struct Signatures {
   }
 };
 
-const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
-
 /// Continues through zero as a straight line: an odd effect changes its sign.
 bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
@@ -115,14 +110,11 @@ class Builder {
       : system_(system), signatures_{session, state, system} {}
 
   void add(CauseId cause, const std::vector<SizedCause>& known) {
-    std::vector<double> values = model::effects::nominal_values(*cause.effect);
-    refined_ = false;
-    for (const SizedCause& r : known) {
-      if (r.cause != cause) continue;
-      values.front() = r.values.front();
-      refined_ = true;
-    }
-    if (size_parameter(*cause.effect).integer) {
+    std::vector<double> values = nominal_values(*cause.effect);
+    const SizedCause* found = find_where(known, having(&SizedCause::cause, cause));
+    refined_ = found != nullptr;
+    if (refined_) values.front() = found->values.front();
+    if (cause.effect->parameters.front().integer) {
       add_links(cause, values);
     } else if (place_parameter(*cause.effect) == nullptr) {
       add_one(cause, values, std::log(share_of_side(cause)));
@@ -135,10 +127,8 @@ class Builder {
         add_one(cause, values, share);
       }
       // All visits are among the places already.
-      for (const SizedCause& r : known) {
-        if (r.cause == cause && !place_parameter(*cause.effect)->integer)
-          add_one(cause, r.values, share);
-      }
+      if (refined_ && !place_parameter(*cause.effect)->integer)
+        add_one(cause, found->values, share);
     }
   }
 
@@ -221,8 +211,7 @@ Candidates candidates(const ObservationSet& session) {
   for (const Effect* effect : effects_of(stated)) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{effect, side};
-      const auto problems =
-          problems_with_effect(stated, cause, model::effects::nominal_values(*effect));
+      const auto problems = problems_with_effect(stated, cause, nominal_values(*effect));
       const std::string reason = untestable(session, cause);
       if (!reason.empty()) {
         result.not_testable.push_back({cause, reason});
@@ -313,7 +302,7 @@ void limit(Regressor& regressor) {
 bool add_regressor(Regressor regressor, const ColumnOf& column, RegressorSystem& system) {
   const auto g = column(regressor);
   if (!g || !(g->norm() > 0.0)) return false;
-  if (size_parameter(*regressor.cause.effect).integer) {
+  if (regressor.cause.effect->parameters.front().integer) {
     regressor.fixed = true;
     regressor.lowest = regressor.highest = 1.0;
   } else {

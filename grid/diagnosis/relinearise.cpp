@@ -5,7 +5,6 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "interp/eigen.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -106,17 +105,17 @@ class Round {
 
  private:
   std::optional<double> length(std::size_t which, double size) const {
-    std::vector<double> values = system_.regressors[which].values;
-    values.front() = size;
-    const auto g = column(which, values);
+    SizedCause there = system_.regressors[which];
+    there.values.front() = size;
+    const auto g = column(there);
     if (!g) return std::nullopt;
     const auto own = g_.col(as_index(which));
     return own.dot(*g) / own.squaredNorm();
   }
 
-  /// R^-1 of a regressor's signature at other values.
-  std::optional<VectorXd> column(std::size_t which, const std::vector<double>& values) const {
-    const auto g = signature(session_, state_, system_, {system_.regressors[which].cause, values});
+  /// R^-1 of a signature.
+  std::optional<VectorXd> column(const SizedCause& cause) const {
+    const auto g = signature(session_, state_, system_, cause);
     if (!g) return std::nullopt;
     return reduced(marginalised_, *g);
   }
@@ -134,9 +133,9 @@ class Round {
       return v;
     };
     return [this, which, without, e = without(marginalised_.e)](double place) {
-      std::vector<double> values = system_.regressors[which].values;
-      values.back() = place;
-      const auto g = column(which, values);
+      SizedCause there = system_.regressors[which];
+      there.values.back() = place;
+      const auto g = column(there);
       if (!g) return 0.0;
       const VectorXd left = without(*g);
       const double square = left.squaredNorm();
@@ -194,7 +193,7 @@ void relinearise(Analysis& a) {
     if (converged) break;
   }
   a.known.clear();
-  for (std::size_t k = 0; k < own.size(); ++k) {
+  for (const auto k : each_index(own)) {
     const double first = system.regressor(a.decision.regressors[k]).values.front();
     // A secant over a tiny size has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kConverged * std::abs(first))) continue;

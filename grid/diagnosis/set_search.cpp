@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/set_search.hpp"
+#include "grid/diagnosis/model_collector.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
-#include "grid/diagnosis/ties.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -20,9 +21,9 @@ void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& 
               std::size_t of_a_cause, std::set<int>& chosen) {
   const VectorXd c = linear::inner(g, e);
   const VectorXd square = g.colwise().squaredNorm();
-  std::vector<std::pair<double, int>> scores;
+  ScoredRegressors scores;
   const auto take = [&] {
-    stable_sort(scores, descending(&std::pair<double, int>::first));
+    stable_sort(scores, descending(&ScoredRegressors::value_type::first));
     if (scores.size() > of_a_cause) scores.resize(of_a_cause);
     for (const auto& [score, k] : scores) chosen.insert(k);
     scores.clear();
@@ -40,13 +41,12 @@ void add_best(const RegressorSystem& system, const MatrixXd& g, const VectorXd& 
 /// The best of each cause's places, after projection on the settings and also after projection on a
 /// leading cause.
 RegressorSet best_of_each_cause(const RegressorSystem& system,
-                                const MarginalisedSystem& marginalised,
-                                const ComparisonOptions& options, std::size_t of_a_cause) {
+                                const MarginalisedSystem& marginalised, std::size_t of_a_cause) {
   std::set<int> chosen;
   const MatrixXd all =
       reduced(marginalised, system.g.dense(numbers_below<int>(system.regressors.size())));
   add_best(system, all, marginalised.e, of_a_cause, chosen);
-  std::vector<std::pair<double, int>> likeliest;
+  ScoredRegressors likeliest;
   for (const int k : chosen) {
     if (system.regressor(k).fixed) continue;
     const auto g = all.col(k);
@@ -65,44 +65,25 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
     for (const Index column : each_below(g.cols())) g.col(column) -= along[column] * own;
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
-  std::erase_if(chosen, [&](int k) {
-    const CauseId& cause = system.regressor(k).cause;
-    return options.given_cause && cause != *options.given_cause;
-  });
   return {chosen.begin(), chosen.end()};
-}
-
-/// Effects of any size that set in at a visit.
-bool at_a_visit(const Regressor& d) {
-  const auto& parameters = d.cause.effect->parameters;
-  return !d.fixed && parameters.size() > 1 && parameters.back().integer;
 }
 
 }  // namespace
 
-SetSearch::SetSearch(const RegressorSystem& system, MarginalisedSystem& marginalised,
-                     std::size_t number, const ComparisonOptions& options)
-    : system_(system),
-      marginalised_(marginalised),
-      options_(options),
-      collector_(system, marginalised, number, options),
-      sets_(system, equations_, -1, options.search, collector_) {}
-
 std::vector<CandidateModel> SetSearch::run() {
-  const std::size_t few = options_.search.of_a_cause;
+  const RegressorSystem& system = collector_.system();
+  const MarginalisedSystem& marginalised = collector_.marginalised();
+  const std::size_t few = collector_.limits().of_a_cause;
   equations_ = normal_equations(
-      system_, marginalised_,
-      few == 0 ? columns() : best_of_each_cause(system_, marginalised_, options_, few));
+      system, marginalised, few == 0 ? columns() : best_of_each_cause(system, marginalised, few));
   if (few > 0) {
-    search_by_beam(system_, equations_, -1, options_.search, collector_);
+    search_by_beam(equations_, -1, collector_);
     return collector_.take();
   }
   sets_.weigh({});
   for (const Index k : each_below(equations_.ge.size())) sets_.weigh({k});
-  if (!options_.given_cause) {
-    pairs();
-    sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
-  }
+  pairs();
+  sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
   return collector_.take();
 }
 
@@ -120,36 +101,33 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& ke
     RegressorSet& regressors = likeliest.emplace_back();
     for (const Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
   }
-  kernel_weight = search_given_discrepancies(system_, marginalised_, options_, equations_,
-                                             likeliest, kernels, collector_);
+  kernel_weight = search_given_discrepancies(equations_, likeliest, kernels, collector_);
   return collector_.take();
 }
 
 RegressorSet SetSearch::columns() const {
+  const RegressorSystem& system = collector_.system();
+  const MarginalisedSystem& marginalised = collector_.marginalised();
   RegressorSet kept;
   RegressorSet fixed;
   RegressorSet shifts;
-  const auto count = as_int(system_.regressors.size());
-  const VectorXd c = with_regressors(system_, marginalised_, marginalised_.e);
-  const VectorXd square = squared_lengths(system_, marginalised_);
-  for (int k = 0; k < count; ++k) {
-    const Regressor& d = system_.regressor(k);
-    if (options_.given_cause && d.cause != *options_.given_cause) continue;
+  const auto count = as_int(system.regressors.size());
+  const VectorXd c = with_regressors(system, marginalised, marginalised.e);
+  const VectorXd square = squared_lengths(system, marginalised);
+  for (const int k : each_below(count)) {
+    const Regressor& d = system.regressor(k);
     if (!(square(k) > kLeastSquare)) continue;
-    (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
+    // Shifts of any size set in at a visit.
+    (d.fixed ? fixed : d.sets_in() ? shifts : kept).push_back(k);
   }
-  const auto explained = [&](int k) { return score_alone(system_.regressor(k), c(k), square(k)); };
+  const auto explained = [&](int k) { return score_alone(system.regressor(k), c(k), square(k)); };
   keep_best(shifts, kKeptShifts, explained);
   RegressorSet likeliest = kept;
   append_all(kept, shifts);
-  if (fixed.size() <= kKeptFixed) {
-    append_all(kept, fixed);
-    return kept;
-  }
   keep_best(likeliest, 8, explained);
   const MatrixXd cross =
-      with_regressors(system_, marginalised_, reduced(marginalised_, system_.g.dense(likeliest)));
-  std::vector<std::pair<double, int>> gains;
+      with_regressors(system, marginalised, reduced(marginalised, system.g.dense(likeliest)));
+  ScoredRegressors gains;
   for (const int k : fixed) {
     double best = explained(k);
     for (const auto l : each_index(likeliest)) {
@@ -165,46 +143,32 @@ RegressorSet SetSearch::columns() const {
 }
 
 double SetSearch::quick_weight(Index i, Index j) const {
-  const Regressor& a = sets_.regressor(i);
-  const Regressor& b = sets_.regressor(j);
-  const double aa = equations_.gg(i, i);
-  const double bb = equations_.gg(j, j);
+  // One after the other, fixed ones first.
+  if (sets_.regressor(j).fixed) std::swap(i, j);
+  const MatrixXd& gg = equations_.gg;
   double q = equations_.ee;
-  double ca = equations_.ge(i);
-  double cb = equations_.ge(j);
-  const double ab = equations_.gg(i, j);
-  double occam = 0.0;
-  const double kWide = kWideSignalToNoise * kWideSignalToNoise;
-  const auto precision = [&](Index k) {
-    return equations_.prior_square(k) / equations_.gg(k, k) / kWide;
+  double weight = 0.0;
+  // Adds a regressor with this inner product with the residual and this square; returns its
+  // coefficient and what that changes with the product.
+  const auto add = [&](Index k, double c, double square) {
+    const Regressor& own = sets_.regressor(k);
+    weight += own.log_prior;
+    if (own.fixed) {
+      q += square - 2.0 * c;
+      return std::pair(1.0, 0.0);
+    }
+    const double prior = equations_.prior_square(k);
+    const double whole = square + prior / (kWideSignalToNoise * kWideSignalToNoise);
+    q -= c * c / whole;
+    weight -= std::log(kUsualSignalToNoise * std::sqrt(whole / prior));
+    return std::pair(c / whole, 1.0 / whole);
   };
-  // One sigma of the strength, in this metric.
-  const auto usual = [&](Index k) {
-    return kUsualSignalToNoise * std::sqrt(equations_.gg(k, k) / equations_.prior_square(k));
-  };
-  if (a.fixed && b.fixed) {
-    q += aa + bb + 2.0 * (ab - ca - cb);
-  } else if (a.fixed || b.fixed) {
-    const double ff = a.fixed ? aa : bb;
-    const double cf = a.fixed ? ca : cb;
-    const double oo = a.fixed ? bb : aa;
-    const double co = (a.fixed ? cb : ca) - ab;
-    const Index free = a.fixed ? j : i;
-    q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision(free)));
-    occam = std::log(usual(free));
-  } else {
-    ca /= std::sqrt(aa);
-    cb /= std::sqrt(bb);
-    const double collinearity = ab / std::sqrt(aa * bb);
-    const double one_a = 1.0 + precision(i);
-    const double one_b = 1.0 + precision(j);
-    const double det = one_a * one_b - collinearity * collinearity;
-    q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
-    occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
-  }
-  const auto n = as_double(marginalised_.kept.size());
-  return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
-         a.log_prior + b.log_prior;
+  const auto [coefficient, slope] = add(i, equations_.ge(i), gg(i, i));
+  const double across = gg(i, j);
+  add(j, equations_.ge(j) - across * coefficient, gg(j, j) - across * across * slope);
+  const double dof = collector_.system().noise_dof;
+  const auto n = as_double(collector_.marginalised().kept.size());
+  return weight - 0.5 * (n + dof) * std::log(dof + std::max(q, 0.0));
 }
 
 void SetSearch::pairs() {
@@ -213,7 +177,7 @@ void SetSearch::pairs() {
   double best = kMinusInfinity;
   for (const Index i : each_below(count)) {
     for (const Index j : each_below(i)) {
-      if (!compatible(sets_.regressor(i), sets_.regressor(j), options_.search)) continue;
+      if (!compatible(sets_.regressor(i), sets_.regressor(j), collector_.limits())) continue;
       const double weight = quick_weight(i, j);
       if (weight < best - kPairsWithin) continue;
       best = std::max(best, weight);

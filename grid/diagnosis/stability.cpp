@@ -37,7 +37,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session, Removal::What wh
   stable_sort(order, ascending(at));
   std::vector<LeftOut> lines;
   for (const auto k : each_index(order)) {
-    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm) lines.push_back({what});
+    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm) lines.push_back({{what}});
     lines.back().units.push_back(order[k]);
     lines.back().at_mm += at(order[k]);
   }
@@ -70,10 +70,9 @@ double probability_of(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)
 
 std::vector<LeftOut> holes_to_leave_out(const ObservationSet& session) {
   std::vector<LeftOut> holes;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
+  for (const auto& [part, tape] : parts_of<TapeDistances>(session)) {
     const std::size_t first = holes.size();
-    for (const observation::Place& hole : tape->places())
-      holes.push_back({Removal::What::hole, hole.index});
+    for (const Place& hole : tape->places()) holes.push_back({{Removal::What::hole, hole.index}});
     for (const auto k : each_index(tape->units())) {
       const HoleDistance& distance = tape->set().distances[k];
       holes[first + distance.from].units.push_back(part->first_unit + k);
@@ -89,8 +88,7 @@ std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
   std::vector<LeftOut> groups = holes_to_leave_out(session);
   for (const auto u : each_index(session.units)) {
     const NumberedUnit& unit = session.units[u];
-    groups.push_back(
-        {is_at_mark(session, unit) ? What::point : What::distance, unit.index, 0.0, {u}});
+    groups.push_back({{is_at_mark(session, unit) ? What::point : What::distance, unit.index}, {u}});
   }
   append_all(groups, lines_along(session, What::column, &MarkPoint::x_mm));
   append_all(groups, lines_along(session, What::row, &MarkPoint::y_mm));
@@ -129,9 +127,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     const auto [without, decision] = decided_without(a, downdating, group.units);
     const double log_odds = log_odds_of_verdict(a, without.comparison);
     Removal& removal = result.removals[k];
-    removal.what = group.what;
-    removal.index = group.index;
-    removal.at_mm = group.at_mm;
+    removal = group;
     removal.points = group.units.size();
     removal.verdict = decision.verdict;
     removal.causes = decision.leaders();
@@ -202,7 +198,7 @@ std::string fate(const Removal& removal) {
   if (removal.causes.empty()) return "nothing would be named";
   std::vector<std::string> names;
   for (const CauseId& cause : removal.causes) {
-    const std::string_view side = model::effects::name(cause.side);
+    const std::string_view side = name(cause.side);
     names.push_back(fmt::format("{}{}{}", cause.effect->id, side.empty() ? "" : " ", side));
     std::replace(names.back().begin(), names.back().end(), '_', ' ');
   }
@@ -212,8 +208,7 @@ std::string fate(const Removal& removal) {
 
 /// Whether a column or row that was left out holds the point.
 bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point) {
-  auto* found =
-      find_where(diagnosis.points, [&](const PointPicture& p) { return p.index == point; });
+  auto* found = find_where(diagnosis.points, having(&PointPicture::index, point));
   const bool is_line = line.what == Removal::What::column || line.what == Removal::What::row;
   if (!is_line || found == nullptr) return false;
   const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
@@ -313,7 +308,7 @@ bool may_be_refused(const Analysis& a) {
 
 std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stability>& stability,
                                                       Analysis& a) {
-  if (!stability || a.options.given_cause || !may_be_refused(a)) return std::nullopt;
+  if (!stability || !may_be_refused(a)) return std::nullopt;
   const Removal* reading = made_by(*stability);
   if (reading == nullptr) return std::nullopt;
   const auto number = as_size(reading - stability->removals.data());
@@ -322,9 +317,7 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   const CauseId cause = a.decision.classes[leader.index].front();
   Flags excluded(a.session.units.size(), false);
   excluded[unit] = true;
-  a.comparison =
-      compare_models(a.system, excluded,
-                     {.kernels = best_kernels(a.comparison), .given_cause = a.options.given_cause});
+  a.comparison = compare_models(a.system, excluded, {.kernels = best_kernels(a.comparison)});
   decide_by(calibrated_rules(), false, a);
   return refusal_words(a.session, *reading, unit, cause, leader.probability);
 }

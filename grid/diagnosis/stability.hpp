@@ -21,11 +21,7 @@ namespace chaintrue::grid::diagnosis {
 inline constexpr double kLineGapMm = 25.0;
 
 /// A group of units that are left out together (positions in the session).
-struct LeftOut {
-  Removal::What what = Removal::What::point;
-  std::size_t index =
-      0;               ///< for a point, a distance or a hole: its number among those of all files
-  double at_mm = 0.0;  ///< of a column its x, of a row its y
+struct LeftOut : Removal {
   Indices units{};
 };
 /// Each hole with the distances that end there.

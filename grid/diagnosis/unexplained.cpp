@@ -13,10 +13,8 @@
 namespace chaintrue::grid::diagnosis {
 
 std::string_view name(Enters enters) {
-  constexpr std::string_view kNames[] = {"left", "right", "alike", "opposite", "x",
-                                         "y",    "mixed", "along", "outwards", "tl",
-                                         "tr",   "bl",    "br"};
-  return kNames[as_size(enters)];
+  return word_of(enters, {"left", "right", "alike", "opposite", "x", "y", "mixed", "along",
+                          "outwards", "tl", "tr", "bl", "br"});
 }
 
 namespace {
@@ -26,9 +24,8 @@ constexpr double kMost = 0.5;
 
 Enters entry_of(const DiscrepancyKernel& kernel) {
   const DiscrepancyField& field = kernel.fields.front();
-  const bool one_way = all_of(kernel.fields, [&](const DiscrepancyField& other) {
-    return other.direction_rad == field.direction_rad;
-  });
+  const bool one_way =
+      all_of(kernel.fields, having(&DiscrepancyField::direction_rad, field.direction_rad));
   if (!one_way || !field.direction_rad) return Enters::mixed;
   // The nearest of the four directions of a half turn; those between two are mixed.
   const double eighths = *field.direction_rad / (0.25 * std::numbers::pi);
@@ -42,8 +39,7 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
 
 Coordinate argument_of(const DiscrepancyKernel& kernel) {
   const Coordinate first = kernel.fields.front().of;
-  const bool of_one =
-      all_of(kernel.fields, [&](const DiscrepancyField& f) { return f.of == first; });
+  const bool of_one = all_of(kernel.fields, having(&DiscrepancyField::of, first));
   return of_one ? first : Coordinate::place;
 }
 

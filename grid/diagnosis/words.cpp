@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/words.hpp"
 
 #include <fmt/format.h>
 
@@ -72,10 +71,9 @@ std::string outlier_words(const Diagnosis& d, const Outlier& bad) {
     case Observations::belts:
       if (!bad.belt)
         return fmt::format("point {}, where more than one belt disagrees", bad.index + 1);
-      return fmt::format(
-          "the {} belt at point {}{}, read {}", model::words(*bad.belt), bad.index + 1,
-          bad.or_belt ? fmt::format(", or the {} one", model::words(*bad.or_belt)) : "",
-          off_in_words(bad.residual_mm));
+      return fmt::format("the {} belt at point {}{}, read {}", words(*bad.belt), bad.index + 1,
+                         bad.or_belt ? fmt::format(", or the {} one", words(*bad.or_belt)) : "",
+                         off_in_words(bad.residual_mm));
     default:
       return fmt::format("{}{}", d.observations == Observations::both ? "point " : "",
                          bad.index + 1);
@@ -85,9 +83,9 @@ std::string outlier_words(const Diagnosis& d, const Outlier& bad) {
 }  // namespace
 
 std::string causes_in_words(const Diagnosis& d) {
-  std::vector<std::string> parts;
-  for (const Cause& c : d.causes)
-    parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
+  const auto parts = mapped(d.causes, [&](const Cause& c) {
+    return fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability));
+  });
   const Vocabulary& words = vocabulary_of(d);
   std::string text;
   if (d.verdict == Verdict::named) {
@@ -122,9 +120,8 @@ std::string claimed_law_in_words(const Diagnosis& d) {
 }
 
 std::string outliers_in_words(const Diagnosis& d) {
-  std::vector<std::string> all;
-  for (const Outlier& bad : d.outliers) all.push_back(outlier_words(d, bad));
-  return joined(all, "and");
+  return joined(mapped(d.outliers, [&](const Outlier& bad) { return outlier_words(d, bad); }),
+                "and");
 }
 
 std::string only_outliers_in_words(const Diagnosis& d) {
@@ -198,7 +195,7 @@ std::string improvement_words(const Diagnosis& d) {
 }
 
 std::string assumed_words(const Diagnosis& d) {
-  const bool assumed = any_of(d.causes, [](const Cause& c) { return c.order_assumed; });
+  const bool assumed = any_of(d.causes, &Cause::order_assumed);
   return assumed ? " This assumes the order of the visits." : "";
 }
 
@@ -327,7 +324,7 @@ void advise(Diagnosis& d) {
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off) continue;
     add_if_room(fmt::format("Check {}: the machine file has {:.2f}, but {:.2f} fits the {}.",
-                            model::name(s.setting), s.stated, s.calibrated, name(d.observations)));
+                            name(s.setting), s.stated, s.calibrated, name(d.observations)));
   }
   if (claimed_law(d) != nullptr) {
     add_if_room(

@@ -84,9 +84,7 @@ const Unit* unit_for(const Effect& effect, std::string_view parameter) {
   const auto* own = find_where(kUnitsOfEffects, [&](const UnitOfEffect& one) {
     return one.effect == effect.id && one.unit.parameter == parameter;
   });
-  return own != nullptr
-             ? &own->unit
-             : find_where(kUnits, [&](const Unit& one) { return one.parameter == parameter; });
+  return own != nullptr ? &own->unit : find_where(kUnits, having(&Unit::parameter, parameter));
 }
 
 /// Rounded to two digits.
@@ -169,18 +167,11 @@ std::string coordinate_words(std::string_view coordinate) {
 std::string side_words(const CauseId& cause) {
   if (cause.side == EffectSide::both && cause.effect->station == Station::paper)
     return " along both axes";
-  constexpr std::string_view kWords[] = {"",
-                                         " on the left",
-                                         " on the right",
-                                         " equally on both sides",
-                                         " along x",
-                                         " along y",
-                                         " at the top left",
-                                         " at the top right",
-                                         " at the bottom left",
-                                         " at the bottom right",
-                                         ", all four equally"};  // by EffectSide
-  return std::string(kWords[as_size(cause.side)]);
+  // by EffectSide
+  return std::string(
+      word_of(cause.side, {"", " on the left", " on the right", " equally on both sides",
+                           " along x", " along y", " at the top left", " at the top right",
+                           " at the bottom left", " at the bottom right", ", all four equally"}));
 }
 
 std::string joined(const std::vector<std::string>& parts, std::string_view last,

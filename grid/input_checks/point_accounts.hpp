@@ -37,8 +37,8 @@ class PointAccounts {
         half_width_mm_(0.5 * grid.machine->bed.width_mm),
         half_height_mm_(0.5 * grid.machine->bed.height_mm),
         prior_sigma_mm_(point_sigmas(grid)),
-        kinematics_(model::make_kinematics(model::equilibrium_parameters(*grid.machine))),
-        controller_(model::make_controller_kinematics(*grid.machine)) {}
+        kinematics_(make_kinematics(equilibrium_parameters(*grid.machine))),
+        controller_(make_controller_kinematics(*grid.machine)) {}
 
   /// The tool's position by its lengths or its command; empty if no pose has them.
   Place place_of(const MeasuredPoint& point) const {
@@ -60,7 +60,7 @@ class PointAccounts {
 
   /// True if the stated machine can hold the sled there.
   bool can_hold(MarkPoint mark) const {
-    return kinematics_->inverse(model::identity_placement(mark)).has_value();
+    return kinematics_->inverse(identity_placement(mark)).has_value();
   }
 
   PlacedPoints placed(const std::vector<MeasuredPoint>& points) const {

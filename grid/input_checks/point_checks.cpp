@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,27 +49,25 @@ std::vector<RowError> row_errors(const MeasuredPoint& written) {
     std::swap(slip.meant.lengths->left_mm, slip.meant.lengths->right_mm);
     slips.push_back(std::move(slip));
   }
+  MeasuredPoint meant = written;
   const auto number = [&](const char* name, bool is_signed, bool is_reading, double penalty,
-                          double& (*of)(MeasuredPoint&)) {
-    MeasuredPoint copy = written;
-    const double value = of(copy);
+                          double& of) {
+    const double value = of;
     for (NumberError& slip : number_errors(value, is_signed)) {
-      slips.push_back({written, fmt::format("{} {}", name, digits_of(value)),
+      of = slip.value;
+      slips.push_back({meant, fmt::format("{} {}", name, digits_of(value)),
                        std::move(slip.question), slip.penalty + penalty, is_reading});
-      of(slips.back().meant) = slip.value;
     }
+    of = value;
   };
-  using Point = MeasuredPoint;
-  number("x_mm", true, false, 0.0, [](Point& p) -> double& { return p.mark.x_mm; });
-  number("y_mm", true, false, 0.0, [](Point& p) -> double& { return p.mark.y_mm; });
+  number("x_mm", true, false, 0.0, meant.mark.x_mm);
+  number("y_mm", true, false, 0.0, meant.mark.y_mm);
   if (written.lengths) {
-    number("left_mm", false, true, 0.0, [](Point& p) -> double& { return p.lengths->left_mm; });
-    number("right_mm", false, true, 0.0, [](Point& p) -> double& { return p.lengths->right_mm; });
+    number("left_mm", false, true, 0.0, meant.lengths->left_mm);
+    number("right_mm", false, true, 0.0, meant.lengths->right_mm);
   } else if (written.commanded) {
-    number("commanded_x_mm", true, true, kPrinted,
-           [](Point& p) -> double& { return p.commanded->x_mm; });
-    number("commanded_y_mm", true, true, kPrinted,
-           [](Point& p) -> double& { return p.commanded->y_mm; });
+    number("commanded_x_mm", true, true, kPrinted, meant.commanded->x_mm);
+    number("commanded_y_mm", true, true, kPrinted, meant.commanded->y_mm);
   }
   mark(25.4 * x_mm, 25.4 * y_mm, "are x_mm and y_mm in inches?");
   mark(10.0 * x_mm, 10.0 * y_mm, "are x_mm and y_mm in centimetres?");
@@ -90,9 +87,7 @@ constexpr double kRepeatMm = 30.0;
 /// A file may have ten thousand points.
 Indices looked_at(std::size_t count) {
   const std::size_t few = std::min(count, kMostLookedAt);
-  Indices rows;
-  for (const std::size_t i : each_below(few)) rows.push_back(i * count / few);
-  return rows;
+  return mapped(each_below(few), [&](std::size_t i) { return i * count / few; });
 }
 
 std::string number_of(const MeasuredGrid& grid, std::size_t row) {
@@ -211,7 +206,7 @@ struct PointRows {
 
   double off_of(const RowError& slip, std::size_t row) const {
     const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : placed.places[row];
-    if (!place) return std::numeric_limits<double>::infinity();
+    if (!place) return kInfinity;
     return accounts.off(trend, slip.meant.mark, *place).norm();
   }
   double residual_mm(std::size_t row) const { return trend.residual_mm[as_index(row)]; }
@@ -299,7 +294,7 @@ struct PointRows {
 }  // namespace
 
 Findings check_points(const MeasuredGrid& grid, Written written) {
-  if (!grid.machine || !model::problems_of(*grid.machine).empty() || grid.points.empty()) return {};
+  if (!grid.machine || !problems_of(*grid.machine).empty() || grid.points.empty()) return {};
   const PointAccounts accounts(grid);
   const PlacedPoints placed = accounts.placed(grid.points);
   const RobustTrend trend = robust_trend(accounts.rows(placed), accounts.prior_sigma_mm());

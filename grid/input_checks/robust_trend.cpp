@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -21,14 +20,12 @@ constexpr int kSteps = 20;
 /// A missing reading is uniform over a square, or a line, of this length.
 constexpr double kAnywhereMm = 2000.0;
 
-double infinity() { return std::numeric_limits<double>::infinity(); }
-
 double median_of_finite(const VectorXd& values) {
   std::vector<double> finite;
   for (const double value : values) {
     if (std::isfinite(value)) finite.push_back(value);
   }
-  return finite.empty() ? infinity() : median(std::move(finite));
+  return finite.empty() ? kInfinity : median(std::move(finite));
 }
 
 }  // namespace
@@ -49,7 +46,7 @@ RobustTrend robust_trend(const TrendRows& rows, const VectorXd& prior_sigma_mm) 
   };
   RobustTrend trend;
   trend.coefficients = MatrixXd::Zero(basis.cols(), components);
-  trend.residual_mm = VectorXd::Constant(n, infinity());
+  trend.residual_mm = VectorXd::Constant(n, kInfinity);
   const auto take_residuals = [&] {
     for (const Index i : each_below(n)) {
       if (is_there(i))

@@ -36,10 +36,8 @@ std::vector<double> gains(const TrendRows& plain, const TrendRows& mended, const
     const double off_mm = (rows.off_mm.row(i) - rows.basis.row(i) * trend).norm();
     return log_density_of(std::isfinite(off_mm) ? off_mm : kMissingMm, scale_mm, components);
   };
-  std::vector<double> gain;
-  for (const Index i : each_below(plain.off_mm.rows()))
-    gain.push_back(density(mended, i) - density(plain, i));
-  return gain;
+  return mapped(each_below(plain.off_mm.rows()),
+                [&](Index i) { return density(mended, i) - density(plain, i); });
 }
 
 /// Where the sum over the rows from one on is the largest.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -284,8 +283,7 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
 std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                   const MeasuredGrid& grid,
                                                   const PlacedPoints& written, Written as) {
-  const bool reads_lengths =
-      any_of(written.points, [](const MeasuredPoint& point) { return point.lengths.has_value(); });
+  const bool reads_lengths = any_of(written.points, &MeasuredPoint::lengths);
   List list(accounts, written);
   add_signs(list, written);
   add_axes(list);

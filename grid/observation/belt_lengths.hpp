@@ -126,8 +126,6 @@ class BeltLengthReadings final : public Observation {
   [[nodiscard]] tl::expected<BlockRows, Unreachable> rows_of(const View& view, const Block& block,
                                                              bool with_parameters) const;
 
-  /// rows_of() for four counted lengths at one place, the usual case, with matrices of fixed size.
-
   void join_places();
   void number_rows(const Block& block, std::vector<double>& measured);
   [[nodiscard]] tl::expected<void, Unreachable> find_positions(const View& view, const Block& block,

@@ -16,10 +16,8 @@ namespace {
 /// Lengths that the position is found from; empty: all.
 Flags deciding_lengths(const LengthsAtPlace& place) {
   if (place.rejected.empty()) return place.counting;
-  Flags deciding;
-  for (const Index i : each_below(place.lengths_mm.size()))
-    deciding.push_back(place.counts(i) && !place.rejected.at(as_size(i)));
-  return deciding;
+  return mapped(each_below(place.lengths_mm.size()),
+                [&](Index i) { return place.counts(i) && !place.rejected.at(as_size(i)); });
 }
 
 }  // namespace
@@ -114,9 +112,9 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
     const Flags deciding = deciding_lengths(own);
     auto position = view.mechanism->locate(own.lengths_mm, own.visit);
     if (!position || !deciding.empty()) {
-      position = model::locate_by_newton(*view.mechanism, own.lengths_mm, own.visit,
-                                         position ? *position : view.mechanism->extent().centre(),
-                                         deciding);
+      position =
+          locate_by_newton(*view.mechanism, own.lengths_mm, own.visit,
+                           position ? *position : view.mechanism->extent().centre(), deciding);
     }
     if (!position) return tl::unexpected(position.error().at(place));
     positions.push_back(*position);

@@ -45,8 +45,7 @@ tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& v
   }
   const auto lengths = model::readings(view.chains(), visits);
   if (!lengths)
-    return tl::unexpected(
-        model::mechanism_failure(lengths.error().reason).at(lengths.error().place));
+    return tl::unexpected(mechanism_failure(lengths.error().reason).at(lengths.error().place));
   VectorXd all(rows());
   for (const auto i : each_index(*lengths)) {
     ChainLengths own = (*lengths)[i];
@@ -67,7 +66,7 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
   for (const auto i : each_index(places_)) {
     const MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.chains().at(view.sheet.to_bed(place));
-    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
+    if (!reading) return tl::unexpected(mechanism_failure(reading.error()).at(i));
     ChainPlaceState state{*reading, places_[i].mark,
                           reading->position_jacobian * view.sheet.rotation()};
     ChainLengths lengths = reading->lengths;

@@ -22,7 +22,7 @@ tl::expected<std::vector<LengthPoint>, std::string> length_points(const Measured
   const bool commands =
       any_of(grid.points, [](const MeasuredPoint& point) { return !point.lengths; });
   std::unique_ptr<const model::ControllerKinematics> controller;
-  if (commands && grid.machine) controller = model::make_controller_kinematics(*grid.machine);
+  if (commands && grid.machine) controller = make_controller_kinematics(*grid.machine);
   std::vector<LengthPoint> points;
   for (const auto i : each_index(grid.points)) {
     const MeasuredPoint& point = grid.points[i];

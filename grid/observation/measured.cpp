@@ -45,9 +45,9 @@ bool same_readings(const MeasuredFile& one, const MeasuredFile& other) {
 
 std::string difference_of_settings(const Machine& first, const Machine& other) {
   for (const Setting setting : kMachineSettings) {
-    if (model::stated_value(first, setting) == model::stated_value(other, setting)) continue;
-    return fmt::format("{} is {} in this file and {} in the first", model::name(setting),
-                       model::stated_value(other, setting), model::stated_value(first, setting));
+    if (stated_value(first, setting) == stated_value(other, setting)) continue;
+    return fmt::format("{} is {} in this file and {} in the first", name(setting),
+                       stated_value(other, setting), stated_value(first, setting));
   }
   return {};
 }

@@ -42,14 +42,10 @@ class Measured {
   Measured(std::initializer_list<MeasuredFile> files) : files_(files) {}
 
   /// Without a given name they keep their own in messages.
-  void add(MeasuredGrid grid) {
-    std::string name = grid.name;
-    files_.push_back({std::move(name), std::move(grid)});
-  }
-
-  void add(MeasuredHoles set) {
-    std::string name = set.name;
-    files_.push_back({std::move(name), std::move(set)});
+  template <class Readings>
+  void add(Readings own) {
+    std::string name = own.name;
+    files_.push_back({std::move(name), std::move(own)});
   }
 
   void add(MeasuredFile file) { files_.push_back(std::move(file)); }

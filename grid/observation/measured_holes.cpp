@@ -10,10 +10,7 @@
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
-std::string_view name(SheetEdge edge) {
-  constexpr std::string_view kNames[] = {"left", "right", "top", "bottom"};
-  return kNames[as_size(edge)];
-}
+std::string_view name(SheetEdge edge) { return word_of(edge, {"left", "right", "top", "bottom"}); }
 
 std::optional<SheetEdge> edge_of(std::string_view word) {
   for (const SheetEdge edge : kSheetEdges) {

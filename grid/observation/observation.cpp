@@ -46,8 +46,8 @@ Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& readin
   Matrix2Xd columns(2, std::ssize(settings));
   for (const auto s : each_index(settings)) {
     const auto column = as_index(s);
-    if (model::is_of_sheet(settings[s])) {
-      columns.col(column) = by_sheet.col(model::sheet_column(settings[s]));
+    if (is_of_sheet(settings[s])) {
+      columns.col(column) = by_sheet.col(sheet_column(settings[s]));
     } else {
       columns.col(column) = view.chains().sensitivity(reading, settings[s]);
     }

@@ -56,9 +56,9 @@ class SingleReadings final : public Observation {
     for (const auto k : each_index(readings_))
       line.predicted[as_index(k)] = predicted_reading(machine, readings_[k]);
     for (const auto s : each_index(settings)) {
-      if (model::is_of_sheet(settings[s])) continue;
-      const Machine moved = model::with_setting(machine, settings[s],
-                                                model::stated_value(machine, settings[s]) + 1.0);
+      if (is_of_sheet(settings[s])) continue;
+      const Machine moved =
+          with_setting(machine, settings[s], stated_value(machine, settings[s]) + 1.0);
       for (const auto k : each_index(readings_)) {
         line.by_setting(as_index(k), as_index(s)) =
             predicted_reading(moved, readings_[k]) - predicted_reading(machine, readings_[k]);

@@ -58,6 +58,16 @@ Sorted sorted_set(const MeasuredHoles& set) {
   return result;
 }
 
+/// The one effect of the paper that a tape can have: its scale.
+bool is_of_tape(const Effect& effect, EffectSide side) {
+  if (effect.station != Station::paper || side != EffectSide::both) return false;
+  // Declared effects may be more than a scale.
+  const std::vector<double> values = nominal_values(effect);
+  const MarkPoint x = effect.write({1.0, 0.0}, side, values);
+  const MarkPoint y = effect.write({0.0, 1.0}, side, values);
+  return x.y_mm == 0.0 && y.x_mm == 0.0 && x.x_mm == y.y_mm;
+}
+
 }  // namespace
 
 const Kind tape_distances{"tape_distances", "distance", "distances", "hole", false};
@@ -104,22 +114,11 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
 
 /// A reading is no more accurate than its last digit.
 void raise_to_rounding(MeasuredHoles& set) {
-  std::vector<double> readings_mm;
-  for (const HoleDistance& distance : set.distances) readings_mm.push_back(distance.distance_mm);
-  const double least_mm = rounding_sigma_mm(readings_mm);
+  const double least_mm = rounding_sigma_mm(mapped(set.distances, &HoleDistance::distance_mm));
   set.tape.sigma_mm = std::max(set.tape.sigma_mm, least_mm);
   for (HoleDistance& distance : set.distances) {
     if (distance.sigma_mm) distance.sigma_mm = std::max(*distance.sigma_mm, least_mm);
   }
-}
-
-bool is_of_tape(const Effect& effect, EffectSide side) {
-  if (effect.station != Station::paper || side != EffectSide::both) return false;
-  // Declared effects may be more than a scale.
-  const std::vector<double> values = model::effects::nominal_values(effect);
-  const MarkPoint x = effect.write({1.0, 0.0}, side, values);
-  const MarkPoint y = effect.write({0.0, 1.0}, side, values);
-  return x.y_mm == 0.0 && y.x_mm == 0.0 && x.x_mm == y.y_mm;
 }
 
 double tape_factor(const Machine& machine) {
@@ -154,7 +153,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
   if (!set.machine) throw std::invalid_argument("holes without a machine predict no distances");
   raise_to_rounding(set);
   TapeDistances result(std::move(set));
-  const auto controller = model::make_controller_kinematics(*result.set_.machine);
+  const auto controller = make_controller_kinematics(*result.set_.machine);
   for (const auto i : each_index(result.set_.holes)) {
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
@@ -164,7 +163,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
                       hole.commanded.x_mm, hole.commanded.y_mm, lengths.error().sentence()));
     }
     result.places_.push_back(
-        {i, hole.name, model::identity_placement(hole.commanded), *lengths, as_int(i)});
+        {i, hole.name, identity_placement(hole.commanded), *lengths, as_int(i)});
   }
   const std::size_t count = result.set_.distances.size();
   result.measured_.resize(as_index(count));
@@ -193,8 +192,7 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   const std::vector<Setting> settings = settings_in(columns);
   auto states = placed(view);
   if (!states) return failed(states);
-  std::vector<MarkPoint> marks;
-  for (const ChainPlaceState& state : *states) marks.push_back(state.mark);
+  const auto marks = mapped(*states, &ChainPlaceState::mark);
   const double factor = tape_factor(view.chains().machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks);
   const MatrixXd by_mark = factor * geometry.by_mark;
@@ -246,7 +244,7 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
   std::vector<ChainPlaceState> states;
   for (const auto i : each_index(places_)) {
     const ChainLengths paid_out = places_[i].lengths;
-    BedPoint start = model::identity_placement(places_[i].mark);
+    BedPoint start = identity_placement(places_[i].mark);
     ChainLengths own = paid_out;
     // The machine's lengths that equal the paid-out ones after correction at a mark.
     const auto correct = [&](MarkPoint mark) {
@@ -265,7 +263,7 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
         break;
       reading = view.chains().find(own, start);
     }
-    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
+    if (!reading) return tl::unexpected(mechanism_failure(reading.error()).at(i));
     ChainPlaceState state{*reading, view.sheet.to_mark(reading->pose.position),
                           reading->position_jacobian * view.sheet.rotation()};
     if (view.correction != nullptr) {

@@ -52,8 +52,6 @@ struct DistanceNoise {
 };
 DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry);
 
-/// The one effect of the paper that a tape can have: its scale.
-bool is_of_tape(const Effect& effect, EffectSide side);
 /// Read over true length, if the machine's effects include a tape error.
 double tape_factor(const Machine& machine);
 

@@ -28,8 +28,7 @@ tl::expected<PlacedEnd, model::MechanismFailure> placed_hole(const Mechanism& me
                                                              const AtHole& hole) {
   constexpr model::MechanismReason kNoHole{"no_hole",
                                            "the lengths that were paid out for a hole do not meet"};
-  const auto at =
-      model::locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
+  const auto at = locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
   if (!at) return failed(at);
   const auto there = mechanism.predict(*at, {});
   if (!there) return failed(there);

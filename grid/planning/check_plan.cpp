@@ -71,7 +71,7 @@ class Separation {
 /// Exchanges points as long as an exchange is an improvement, from evenly spaced ones.
 Indices choose(const Separation& separation, std::size_t places, int points) {
   Indices chosen;
-  for (int i = 0; i < points; ++i) {
+  for (const int i : each_below(points)) {
     chosen.push_back(as_size(i) * (places - 1) / as_size(points - 1));
   }
   const auto value = [&](std::size_t) { return 1.0 / separation.together(chosen); };

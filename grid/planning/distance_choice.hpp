@@ -136,9 +136,8 @@ class DistanceChooser {
   Measurable measurable(const Holes& holes, std::vector<HoleDistance> distances) const {
     MeasuredHoles set = frame_;
     set.distances = std::move(distances);
-    std::vector<MarkPoint> marks;
-    for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
-    const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks);
+    const observation::DistanceGeometry geometry =
+        observation::distance_geometry(set, mapped(holes, &PlannedPlace::place));
     const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
     MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
     for (const auto i : each_index(holes)) {

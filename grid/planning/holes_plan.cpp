@@ -40,7 +40,7 @@ struct ToolError {
 /// Derivative by the unknowns of the position on the sheet that is cut with the chain lengths of a
 /// given position; empty if the machine has no pose there.
 std::optional<PlannedPlace> planned_place(const ReadingModel& model, MarkPoint place) {
-  const auto reading = model.at(model::identity_placement(place));
+  const auto reading = model.at(identity_placement(place));
   if (!reading) return std::nullopt;
   Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
   for (const auto i : each_index(kMachineSettings)) {
@@ -154,8 +154,8 @@ MeasuredHoles set_of(const Machine& machine, const HolesPlanRequest& request, co
   set.hole_sigma_mm = request.hole_sigma_mm;
   for (const auto i : each_index(order)) {
     number[order[i]] = i;
-    set.holes.push_back({std::string(1, static_cast<char>('A' + i)),
-                         model::identity_placement(holes[order[i]]->place)});
+    set.holes.push_back(
+        {std::string(1, static_cast<char>('A' + i)), identity_placement(holes[order[i]]->place)});
   }
   for (const HoleDistance& distance : distances) {
     if (distance.edge) {
@@ -247,7 +247,7 @@ struct Pattern {
 };
 
 bool shows_in_distances(const Effect& effect) {
-  return effect.station != Station::paper && !model::effects::depends_on_visit(effect);
+  return effect.station != Station::paper && !depends_on_visit(effect);
 }
 
 /// Empty if the machine cannot cut the holes.
@@ -273,15 +273,14 @@ std::vector<Pattern> patterns_of(const MeasuredHoles& set) {
     if (!shows_in_distances(*effect)) continue;
     for (const EffectSide side : effect->sides) {
       Machine machine = *set.machine;
-      machine.effects.push_back(
-          model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
+      machine.effects.push_back(applied(*effect, side, nominal_values(*effect)));
       if (!model::effects::problems_of_effects(machine).empty()) continue;
       const auto with = distances->predicted({ReadingModel(machine), {}});
       if (!with) continue;
       Pattern& own = patterns.emplace_back();
       own.white = covariance.half_solve(VectorXd(*with - line->predicted));
       own.found.effect = effect->id;
-      own.found.side = model::effects::name(side);
+      own.found.side = name(side);
       own.found.sigmas = own.white.norm();
     }
   }

@@ -43,14 +43,14 @@ class Planner {
     grid.machine = machine_;
     grid.noise = StatedNoise{request_.noise.length_mm, request_.noise.position_mm, kCertainDof};
     for (const MarkPoint& mark : marks) {
-      const auto reading = model_.at(model::identity_placement(mark));
+      const auto reading = model_.at(identity_placement(mark));
       if (!reading) {
         return failed(PlanReason::unreachable,
                       fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
                                   "margin leaves such places out",
                                   mark.x_mm, mark.y_mm, reading.error().sentence()));
       }
-      const ChainLengths disturbance = synthetic::unmodelled(model::identity_placement(mark));
+      const ChainLengths disturbance = synthetic::unmodelled(identity_placement(mark));
       grid.points.push_back(
           {mark,
            ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,

@@ -45,7 +45,7 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
     const PlotterMachine& machine,
     const std::shared_ptr<const observation::DrawnMeasures>& readings) {
   estimation::EstimationInput input;
-  input.mechanism = model::make_plotter_mechanism(machine);
+  input.mechanism = make_plotter_mechanism(machine);
   input.observations = {readings};
   input.noise.knowledge = interp::NoiseKnowledge::unknown;
   input.noise_prior = interp::SmoothingPrior::none;
@@ -124,8 +124,8 @@ PlotterMachine typed_in(model::PlotterFirmware firmware, PlotterMachine found) {
 tl::expected<ToolPosition, model::MechanismFailure> pen_of_command(
     model::PlotterFirmware firmware, const PlotterMachine& set,
     const model::PlotterMechanism& found, BedPoint command) {
-  const auto lengths = model::paid_out(firmware, set, command);
-  if (!lengths) return tl::unexpected(model::mechanism_failure(lengths.error()));
+  const auto lengths = paid_out(firmware, set, command);
+  if (!lengths) return tl::unexpected(mechanism_failure(lengths.error()));
   return found.locate_by_first(*lengths);
 }
 
@@ -143,7 +143,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
                   sentence_of(drawing, made.error().place, made.error().sentence()));
   }
   const auto readings = std::make_shared<const observation::DrawnMeasures>(std::move(*made));
-  const auto as_set = readings->predicted(View(model::make_plotter_mechanism(drawing.machine)));
+  const auto as_set = readings->predicted(View(make_plotter_mechanism(drawing.machine)));
   if (!as_set) {
     return failed(DrawingReason::cross_out_of_reach,
                   sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
@@ -153,7 +153,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
     if (!values) return std::nullopt;
     return in_file_order(*readings, *values);
   };
-  if (auto slip = slip_of_drawing(drawing, drawn, *model::make_plotter_mechanism(drawing.machine)))
+  if (auto slip = slip_of_drawing(drawing, drawn, *make_plotter_mechanism(drawing.machine)))
     return tl::unexpected(std::move(*slip));
   auto estimate = estimated(drawing.machine, readings);
   if (!estimate) return failed(estimate);
@@ -164,7 +164,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   for (const estimation::UnitEstimate& unit : estimate->units)
     rejected[readings->units()[unit.unit].index] = unit.is_rejected();
   if (auto slip = exchanged_rows(drawing, found, rejected)) return tl::unexpected(std::move(*slip));
-  const auto bad = std::count(rejected.begin(), rejected.end(), true);
+  const auto bad = count_equal(rejected, true);
   if (estimate->noise_factor > kMostNoiseFactor ||
       as_double(bad) > kMostRejectedShare * as_double(rejected.size())) {
     return failed(

@@ -52,8 +52,8 @@ std::vector<Transformation> drawing_transformations(
                     });
   };
   const auto all = [](const DrawnMeasure&) { return true; };
-  const auto lengths = [](const DrawnMeasure& m) { return m.kind == Kind::length; };
-  const auto bows = [](const DrawnMeasure& m) { return m.kind == Kind::bow; };
+  const auto lengths = having(&DrawnMeasure::kind, Kind::length);
+  const auto bows = having(&DrawnMeasure::kind, Kind::bow);
   for (const auto& [unit, mm] : {std::pair("inches", kMmPerInch), std::pair("centimetres", 10.0)}) {
     const auto sentence = [&, unit = unit, mm = mm](const char* what) {
       return fmt::format("{} look like {}: write millimetres ({} times {:g})", what, unit, unit,

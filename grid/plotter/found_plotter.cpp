@@ -73,7 +73,7 @@ SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found) {
     next.machine.pulley_radius_mm /= factor;
     next.homed_offset_mm = (set.homed_offset_mm - too_much_mm) / factor;
   } else if (set.home) {
-    const auto mechanism = model::make_plotter_mechanism(found);
+    const auto mechanism = make_plotter_mechanism(found);
     const auto pen = pen_of_command(set.firmware, set.machine, *mechanism, *set.home);
     if (pen) next.home = BedPoint{pen->x_mm, pen->y_mm};
   }

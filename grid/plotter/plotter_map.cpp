@@ -41,13 +41,13 @@ std::vector<MarkPoint> pens_of(const Mechanism& plotter, const std::vector<Chain
 MechanismMap plotter_map(const KnownPlotter& plotter) {
   if (!plotter.found) throw std::invalid_argument("a plotter of which nothing was found");
   const SetPlotter& set = plotter.set;
-  const auto found = model::make_plotter_mechanism(machine_found(set, *plotter.found));
+  const auto found = make_plotter_mechanism(machine_found(set, *plotter.found));
   const BedPoint by = set.pins_middle;
   std::vector<BedPoint> crosses;  // as commanded, in the controller's coordinates
   std::vector<ChainLengths> counted;
   for (const auto& [name, commanded] : planned_drawing(set).crosses) {
     crosses.push_back({commanded.x_mm + by.x_mm, commanded.y_mm + by.y_mm});
-    const auto lengths = model::paid_out(set.firmware, set.machine, commanded);
+    const auto lengths = paid_out(set.firmware, set.machine, commanded);
     if (!lengths)
       throw std::invalid_argument(fmt::format("a cross that the controller cannot hold: {}",
                                               sentence_of(lengths.error().reason)));
@@ -61,7 +61,7 @@ MechanismMap plotter_map(const KnownPlotter& plotter) {
   std::vector<BedPoint> on_page;
   std::vector<MarkPoint> measured;
   for (const BedPoint& cross : crosses) {
-    measured.push_back(model::identity_placement(cross));
+    measured.push_back(identity_placement(cross));
     const auto lengths = found->first_lengths(best.sheet.in_frame(cross));
     if (!lengths) continue;
     of_fit.push_back(*lengths);

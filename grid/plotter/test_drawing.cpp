@@ -58,7 +58,7 @@ tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
   std::vector<observation::DrawnPoint> points;
   for (const auto i : each_index(drawing.crosses)) {
     const DrawnCross& cross = drawing.crosses[i];
-    const auto lengths = model::paid_out(drawing.firmware, drawing.machine, cross.commanded);
+    const auto lengths = paid_out(drawing.firmware, drawing.machine, cross.commanded);
     if (!lengths) return tl::unexpected(lengths.error().at(i));
     points.push_back({cross.name, {cross.commanded.x_mm, cross.commanded.y_mm}, *lengths});
   }
@@ -68,8 +68,7 @@ tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
 std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing) {
   if (!drawing.longest_belt_mm) return std::nullopt;
   for (const auto i : each_index(drawing.crosses)) {
-    const auto lengths =
-        model::paid_out(drawing.firmware, drawing.machine, drawing.crosses[i].commanded);
+    const auto lengths = paid_out(drawing.firmware, drawing.machine, drawing.crosses[i].commanded);
     if (lengths && std::max(lengths->left_mm, lengths->right_mm) > *drawing.longest_belt_mm)
       return i;
   }

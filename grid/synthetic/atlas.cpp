@@ -31,8 +31,9 @@ struct SetAndActual {
   int first_visit = 0;
 };
 
-/// Makes the machine with a cause at a size; empty if there is none.
-using WithSize = std::function<std::optional<SetAndActual>(double)>;
+/// The machine with a cause at a size; empty if there is none.
+using Made = std::optional<SetAndActual>;
+using WithSize = std::function<Made(double)>;
 
 // Margin of the lattice inside the area, so that a cause may shift it.
 constexpr double kMargin = 0.04;
@@ -47,7 +48,7 @@ ToolPosition minus(ToolPosition a, ToolPosition b) { return {a.x_mm - b.x_mm, a.
 
 std::vector<ToolPosition> straight(ToolPosition from, ToolPosition to, int count) {
   std::vector<ToolPosition> points;
-  for (int i = 0; i < count; ++i) {
+  for (const int i : each_below(count)) {
     const double part = as_double(i) / (count - 1);
     points.push_back(
         {from.x_mm + part * (to.x_mm - from.x_mm), from.y_mm + part * (to.y_mm - from.y_mm)});
@@ -77,7 +78,7 @@ std::vector<AtlasLine> lattice_over(const MechanismExtent& extent) {
   const auto corner = [&](int i) {
     return plus(centre, {half * kCorners[i % 4][0], half * kCorners[i % 4][1]});
   };
-  for (int i = 0; i < 4; ++i)
+  for (const int i : each_below(4))
     lines.push_back({straight(corner(i), corner(i + 1), kPointsOfSide), true});
   return lines;
 }
@@ -116,15 +117,13 @@ std::vector<double> directions(const SetAndActual& machine, ToolPosition from, T
   const auto after =
       machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
   if (!before || !after) return {};
-  std::vector<double> ways;
-  for (const Index i : each_below(after->lengths_mm.size()))
-    ways.push_back(after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0);
-  return ways;
+  return mapped(each_below(after->lengths_mm.size()),
+                [&](Index i) { return after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0; });
 }
 
 AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& machine, double size) {
   AtlasFrame frame{size, {}};
-  for (std::size_t k = 0; k < lines.size(); ++k) {
+  for (const auto k : each_index(lines)) {
     const std::vector<ToolPosition>& points = lines[k].points;
     std::vector<std::optional<ToolPosition>> drawn;
     for (const auto i : each_index(points)) {
@@ -170,7 +169,7 @@ std::string id_of(const AtlasPicture& picture) {
 }
 
 /// Empty too where no such machine can be.
-std::optional<SetAndActual> made_with(const WithSize& with_size, double size) {
+Made made_with(const WithSize& with_size, double size) {
   try {
     return with_size(size);
   } catch (const std::invalid_argument&) {
@@ -197,7 +196,7 @@ void add_picture(AtlasPicture picture, const std::vector<double>& sizes, double 
 AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, double size) {
   std::vector<double> values = nominal_values(effect);
   values[at] = size;
-  return model::effects::applied(effect, side, values);
+  return applied(effect, side, values);
 }
 
 std::size_t first_size(const Effect& effect) {
@@ -207,8 +206,7 @@ std::size_t first_size(const Effect& effect) {
 }
 
 void add_settings(const Mechanism& mechanism, std::string_view cause,
-                  const std::function<std::optional<SetAndActual>(Index, double)>& with_size,
-                  Atlas& atlas) {
+                  const std::function<Made(Index, double)>& with_size, Atlas& atlas) {
   const auto parameters = mechanism.parameters();
   for (const auto k : each_index(parameters)) {
     if (!cause.empty() && cause != parameters[k].name) continue;
@@ -220,10 +218,8 @@ void add_settings(const Mechanism& mechanism, std::string_view cause,
   }
 }
 
-void add_effects(
-    const Mechanism& mechanism, std::string_view cause,
-    const std::function<std::optional<SetAndActual>(const AppliedEffect&)>& with_effect,
-    Atlas& atlas) {
+void add_effects(const Mechanism& mechanism, std::string_view cause,
+                 const std::function<Made(const AppliedEffect&)>& with_effect, Atlas& atlas) {
   for (const Effect* effect : mechanism.effects()) {
     if (!cause.empty() && cause != effect->id) continue;
     const std::size_t at = first_size(*effect);
@@ -256,14 +252,14 @@ std::optional<BeltMachine> calibrated(const BeltMachine& machine, const AppliedE
   spec.hidden = {effect};
   const auto session = simulate_belts(machine, machine, spec);
   if (!session) return std::nullopt;
-  const belts::Counting all(session->points.size(), belts::kAllBelts);
-  const auto found = belts::fit_anchors_from(*session, {belts::anchors_of(machine), 0.0, {}}, all);
+  const Counting all(session->points.size(), kAllBelts);
+  const auto found = belts::fit_anchors_from(*session, {anchors_of(machine), 0.0, {}}, all);
   if (!found) return std::nullopt;
-  return belts::with_anchors(machine, found->state.anchors);
+  return with_anchors(machine, found->state.anchors);
 }
 
 ToolPosition origin_of(const BeltMachine& machine) {
-  const FramePoint centre = model::to_frame(machine, {0.0, 0.0});
+  const FramePoint centre = to_frame(machine, {0.0, 0.0});
   return {centre.x_mm, centre.y_mm};
 }
 
@@ -275,13 +271,13 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
   atlas.lines = lattice_over(mechanism.extent());
   add_settings(
       mechanism, cause,
-      [&](Index k, double more) -> std::optional<SetAndActual> {
+      [&](Index k, double more) -> Made {
         return SetAndActual{set, with_parameter(mechanism, k, more)};
       },
       atlas);
   add_effects(
       mechanism, cause,
-      [&](const AppliedEffect& effect) -> std::optional<SetAndActual> {
+      [&](const AppliedEffect& effect) -> Made {
         return SetAndActual{set, mechanism.with_effects({effect})};
       },
       atlas);
@@ -290,7 +286,7 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
 
 Atlas atlas_of(const BeltMachine& machine, std::string_view cause) {
   if (!machine.anchors_known) throw std::invalid_argument("an atlas of anchors that are not known");
-  const auto actual = model::make_belt_mechanism(machine);
+  const auto actual = make_belt_mechanism(machine);
   const ToolPosition origin = origin_of(machine);
   MechanismExtent area = actual->extent();
   area = {area.x_min_mm - origin.x_mm, area.x_max_mm - origin.x_mm, area.y_min_mm - origin.y_mm,
@@ -300,18 +296,18 @@ Atlas atlas_of(const BeltMachine& machine, std::string_view cause) {
   atlas.lines = lattice_over(area);
   add_settings(
       *actual, cause,
-      [&](Index k, double more) -> std::optional<SetAndActual> {
-        const auto as_is = model::make_belt_mechanism(
-            belts::with_anchors(machine, with_parameter(*actual, k, more)->values()));
+      [&](Index k, double more) -> Made {
+        const auto as_is =
+            make_belt_mechanism(with_anchors(machine, with_parameter(*actual, k, more)->values()));
         return SetAndActual{actual, as_is, origin, origin_of(as_is->machine())};
       },
       atlas);
   add_effects(
       *actual, cause,
-      [&](const AppliedEffect& effect) -> std::optional<SetAndActual> {
+      [&](const AppliedEffect& effect) -> Made {
         const auto found = calibrated(machine, effect);
         if (!found) return std::nullopt;
-        return SetAndActual{model::make_belt_mechanism(*found), actual->with_effects({effect}),
+        return SetAndActual{make_belt_mechanism(*found), actual->with_effects({effect}),
                             origin_of(*found), origin, kAtlasPlaces};
       },
       atlas);

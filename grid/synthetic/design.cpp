@@ -18,7 +18,8 @@ constexpr int kBands = 5;
 
 /// `words` in the order of the enumerators.
 template <class Enum>
-std::optional<Enum> word_of(std::string_view word, std::initializer_list<std::string_view> words) {
+std::optional<Enum> enumerator_of(std::string_view word,
+                                  std::initializer_list<std::string_view> words) {
   const auto* found = std::find(words.begin(), words.end(), word);
   if (found == words.end()) return std::nullopt;
   return static_cast<Enum>(found - words.begin());
@@ -137,15 +138,15 @@ void put_in_order(std::vector<Mark>& marks, VisitingOrder order, Random& random)
 }
 
 std::optional<DesignKind> design_kind(std::string_view word) {
-  return word_of<DesignKind>(word, {"regular", "chebyshev", "random", "given"});
+  return enumerator_of<DesignKind>(word, {"regular", "chebyshev", "random", "given"});
 }
 
 std::optional<Region> region(std::string_view word) {
-  return word_of<Region>(word, {"whole", "left", "right", "top", "bottom"});
+  return enumerator_of<Region>(word, {"whole", "left", "right", "top", "bottom"});
 }
 
 std::optional<VisitingOrder> visiting_order(std::string_view word) {
-  return word_of<VisitingOrder>(
+  return enumerator_of<VisitingOrder>(
       word, {"rows", "columns", "serpentine_rows", "serpentine_columns", "random"});
 }
 

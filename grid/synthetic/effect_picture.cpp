@@ -52,8 +52,7 @@ EffectPicture picture_effect(const Machine& machine, const Effect& effect, Effec
   const std::vector<Vector2d> stated = signature(machine, {applied}, visits).tool_shift_mm();
   const std::vector<Vector2d> calibrated = table.calibrated_shift_mm(applied);
   for (const auto i : each_index(visits)) {
-    picture.marks.push_back(
-        {model::identity_placement(visits[i].position), stated[i], calibrated[i]});
+    picture.marks.push_back({identity_placement(visits[i].position), stated[i], calibrated[i]});
   }
   // In the middle, and towards a lower corner, where most effects are largest.
   picture.squares.push_back(square_at(machine, applied, {0.0, 0.0}));

@@ -87,7 +87,7 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
   if (spec.draw_settings) {
     Random random(spec.seed, kSettings);
     for (const Setting setting : kMachineSettings) {
-      offsets.push_back({setting, model::stated_sigma(stated, setting) * random.normal()});
+      offsets.push_back({setting, stated_sigma(stated, setting) * random.normal()});
     }
   }
   if (spec.sheet) {
@@ -181,8 +181,8 @@ void offset_setting(Machine& machine, SheetPlacement& sheet, const SettingOffset
       sheet.rotation_rad += offset.offset;
       break;
     default:
-      machine = model::with_setting(machine, offset.setting,
-                                    model::stated_value(machine, offset.setting) + offset.offset);
+      machine = with_setting(machine, offset.setting,
+                             stated_value(machine, offset.setting) + offset.offset);
   }
 }
 
@@ -237,9 +237,9 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
       answer.lengths[i][side] += spec.unmodelled_mm * unmodelled(visits[i].position)[side];
   }
   const model::MarkFrame mark_frame(answer.machine);
-  std::vector<MarkPoint> written;
-  for (const BedPoint& place : answer.places)
-    written.push_back(mark_frame.written(answer.sheet.to_mark(place)));
+  auto written = mapped(answer.places, [&](const BedPoint& place) {
+    return mark_frame.written(answer.sheet.to_mark(place));
+  });
 
   session.grid.machine = stated;
   session.grid.noise = stated_noise(spec);
@@ -271,9 +271,8 @@ PlacesRead read_places(const Machine& stated, const std::vector<AppliedEffect>& 
   const auto lengths = model::readings(reading_model, reached, counting(progress, reached.size()));
   result.grid.machine = stated;
   for (const auto i : each_index(reached)) {
-    result.grid.points.push_back(
-        {mark_frame.written(model::identity_placement(reached[i].position)), lengths->at(i),
-         std::nullopt, reached[i].order});
+    result.grid.points.push_back({mark_frame.written(identity_placement(reached[i].position)),
+                                  lengths->at(i), std::nullopt, reached[i].order});
   }
   return result;
 }

@@ -27,9 +27,9 @@ Machine hidden_truth(const Machine& stated, const HolesSpec& spec) {
   Machine truth = stated;
   if (spec.draw_settings) {
     for (const Setting setting : kMachineSettings) {
-      truth = model::with_setting(std::move(truth), setting,
-                                  model::stated_value(stated, setting) +
-                                      model::stated_sigma(stated, setting) * random.normal());
+      truth = with_setting(
+          std::move(truth), setting,
+          stated_value(stated, setting) + stated_sigma(stated, setting) * random.normal());
     }
   }
   if (spec.scale_sigma > 0.0) {

@@ -24,8 +24,8 @@ std::vector<BedPoint> commands_of(const BeltMachine& stated, const BeltsSpec& sp
   const double width = spec.width_share * 0.5 * (a.br.x_mm + a.tr.x_mm - a.tl.x_mm);
   const double height = spec.height_share * 0.5 * (a.tl.y_mm + a.tr.y_mm);
   std::vector<BedPoint> commands;
-  for (int row = 0; row < spec.rows; ++row) {
-    for (int i = 0; i < spec.columns; ++i) {
+  for (const int row : each_below(spec.rows)) {
+    for (const int i : each_below(spec.columns)) {
       const int column = row % 2 == 0 ? i : spec.columns - 1 - i;
       commands.push_back({width * (as_double(column) / (spec.columns - 1) - 0.5),
                           height * (as_double(row) / (spec.rows - 1) - 0.5)});
@@ -37,9 +37,9 @@ std::vector<BedPoint> commands_of(const BeltMachine& stated, const BeltsSpec& sp
 /// The tool's position when the upper belts have the lengths paid out for a command.
 tl::expected<FramePoint, model::BeltFailure> place_of(const BeltMachine& stated,
                                                       const BeltMachine& truth, BedPoint command) {
-  const auto paid_out = model::lengths_at(stated, model::to_frame(stated, command));
+  const auto paid_out = lengths_at(stated, to_frame(stated, command));
   if (!paid_out) return failed(paid_out);
-  return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
+  return place_of_upper(truth, paid_out->tl, paid_out->tr);
 }
 
 std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {

@@ -38,7 +38,7 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
   Random unused(0);
   std::vector<Visit> visits;
   for (const Mark& mark : marks(machine.bed, design, unused)) {
-    visits.push_back({model::identity_placement(mark.place), as_int(visits.size())});
+    visits.push_back({identity_placement(mark.place), as_int(visits.size())});
   }
   return visits;
 }
@@ -66,7 +66,7 @@ SessionSignature signature(const Machine& stated, const std::vector<AppliedEffec
     if (!reading) {
       throw precondition("signature: visit {}: {}", i, reading.error().sentence());
     }
-    const MarkPoint place = model::identity_placement(visits[i].position);
+    const MarkPoint place = identity_placement(visits[i].position);
     const MarkPoint written = mark_frame.written(place);
     const MarkPoint usual = stated_mark_frame.written(place);
     const Vector2d moved = difference(written, usual);
@@ -103,7 +103,7 @@ StrengthTable::StrengthTable(const Machine& stated, std::vector<model::Visit> vi
   }
   for (const Index k : each_below(settings)) {
     by_setting(2 * count + k, k) =
-        1.0 / std::max(kKnownSigma, model::stated_sigma(stated, kMachineSettings[as_size(k)]));
+        1.0 / std::max(kKnownSigma, stated_sigma(stated, kMachineSettings[as_size(k)]));
   }
   settings_basis_ = linear::orthonormal_columns(by_setting);
   for (const Effect* effect : model::effects::effects_of(stated_)) {
@@ -164,7 +164,7 @@ std::vector<Vector2d> StrengthTable::calibrated_shift_mm(const AppliedEffect& ap
 std::vector<std::vector<double>> StrengthTable::place_choices(const Effect& effect,
                                                               std::size_t visits) {
   constexpr int kSteps = 12;
-  std::vector<std::vector<double>> choices = {model::effects::nominal_values(effect)};
+  std::vector<std::vector<double>> choices = {nominal_values(effect)};
   for (const auto i : each_index(effect.parameters)) {
     const EffectParameter& parameter = effect.parameters[i];
     if (parameter.role != ParameterRole::place) continue;
@@ -194,7 +194,7 @@ void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
   bool usual = true;
   for (const auto& values : place_choices(effect, visits_.size())) {
     Machine with = stated_;
-    with.effects.push_back(model::effects::applied(effect, side, values));
+    with.effects.push_back(applied(effect, side, values));
     if (!model::effects::problems_of_effects(with).empty()) return;  // cannot act on such a machine
     entries_.push_back(entry(with.effects.back()));
     entries_.back().effect = &effect;

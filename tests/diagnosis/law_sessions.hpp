@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/observations.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
 namespace chaintrue::grid::diagnosis::laws {

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "grid/belts/anchor_estimate.hpp"
-#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/whole_file.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The search for outliers, which updates one decomposition step by step, compared with a search
 // that forms the whole covariance and leaves the rows out of it.
-#include "grid/diagnosis/outlier_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/effects/catalogue.hpp"

@@ -67,7 +67,8 @@ TEST(Discrepancy, LowRankEqualsTheDenseCovariance) {
     SCOPED_TRACE(kernel);
     const auto own = basis.given(kernel, plain).equations(strength, plain.columns);
     const Discrepancy process = discrepancy_of(a.system, marginalised, discrepancy);
-    Eigen::MatrixXd v = discrepancy_covariance(a.system, marginalised.kept, process.kernel);
+    Eigen::MatrixXd v = discrepancy_covariance(process.kernel, a.system, marginalised.kept,
+                                               a.system, marginalised.kept);
     v = marginalised.root.solve(v);
     v = marginalised.root.solve(v.transpose()) * (process.sigma_mm * process.sigma_mm);
     v.diagonal().array() += 1.0;

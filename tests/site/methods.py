@@ -3,7 +3,7 @@
 """Numbers of docs/methods.md are those of the code: a constant that it names has the value that its source has.
 
 Usage: methods.py ROOT. A constant stands there as "| `kName` | value |" or as "`kName` = value", a probability of
-model/mechanism_change.hpp as "`name` = value"; all of grid/diagnosis/constants.def must stand there but for the limits
+model/mechanism_change.hpp as "`name` = value"; all of grid/diagnosis/constants.hpp must stand there but for the limits
 of the search.
 """
 
@@ -44,10 +44,10 @@ def problems_of(root):
     for name, value in named.items():
         if constants.get(name, set()) != {number(value)}:
             yield f"docs/methods.md: {name} is {value} there, in the sources {sorted(constants.get(name, []))}"
-    definitions = PRIORS.match((root / "grid/diagnosis/constants.def").read_text(encoding="utf-8")).group(0)
-    for name in re.findall(r"^CHAINTRUE_\w+\((k\w+),", definitions, re.M):
+    definitions = PRIORS.match((root / "grid/diagnosis/constants.hpp").read_text(encoding="utf-8")).group(0)
+    for name in re.findall(r"^inline constexpr [\w:]+ (k\w+) =", definitions, re.M):
         if name not in named:
-            yield f"docs/methods.md does not give {name} of grid/diagnosis/constants.def"
+            yield f"docs/methods.md does not give {name} of grid/diagnosis/constants.hpp"
     if len(named) < 20:
         yield f"docs/methods.md names {len(named)} constants only: is it read as it is written?"
 

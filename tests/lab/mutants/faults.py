@@ -123,7 +123,7 @@ FAULTS = [
           "(std::abs(links) - 1.0)",
           "(links - 1.0)",
           "/Prior"),
-    Fault("p_value_may_be_zero", "grid/diagnosis/null_distribution.cpp",
+    Fault("p_value_may_be_zero", "grid/diagnosis/null_distribution.hpp",
           "(above + 1.0)",
           "above",
           "null_?distribution|p_?value"),
