@@ -17,6 +17,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -25,6 +26,8 @@
 
 namespace chaintrue::grid {
 
+/// Texts in a list: names, sentences, words of a command line.
+using Words = std::vector<std::string>;
 /// Positions in a list, of rows in a matrix and of its columns; a flag for each of a list.
 using Indices = std::vector<std::size_t>;
 using Rows = std::vector<Index>;
@@ -45,13 +48,19 @@ template <class Container, class Value>
 bool contains(const Container& all, const Value& one) {
   return std::find(std::begin(all), std::end(all), one) != std::end(all);
 }
+/// A predicate is a function of an element or a member that is true, or not empty:
+/// count_where(points, &MapPoint::bad).
+template <class Predicate>
+auto as_predicate(Predicate& holds) {
+  return [&holds](auto&& one) { return static_cast<bool>(std::invoke(holds, one)); };
+}
 template <class Container, class Predicate>
 bool any_of(const Container& all, Predicate holds) {
-  return std::any_of(std::begin(all), std::end(all), holds);
+  return std::any_of(std::begin(all), std::end(all), as_predicate(holds));
 }
 template <class Container, class Predicate>
 bool all_of(const Container& all, Predicate holds) {
-  return std::all_of(std::begin(all), std::end(all), holds);
+  return std::all_of(std::begin(all), std::end(all), as_predicate(holds));
 }
 template <class Container, class Predicate>
 bool none_of(const Container& all, Predicate holds) {
@@ -60,7 +69,7 @@ bool none_of(const Container& all, Predicate holds) {
 
 template <class Container, class Predicate>
 std::size_t count_where(const Container& all, Predicate holds) {
-  return as_size(std::count_if(std::begin(all), std::end(all), holds));
+  return as_size(std::count_if(std::begin(all), std::end(all), as_predicate(holds)));
 }
 template <class Container, class Value>
 std::size_t count_equal(const Container& all, const Value& one) {
@@ -87,7 +96,7 @@ void stable_sort(Container& all, Less... less) {
 /// The first element that satisfies the predicate; null if none does.
 template <class Container, class Predicate>
 auto* find_where(Container& all, Predicate holds) {
-  const auto found = std::find_if(std::begin(all), std::end(all), holds);
+  const auto found = std::find_if(std::begin(all), std::end(all), as_predicate(holds));
   return found != std::end(all) ? &*found : nullptr;
 }
 
