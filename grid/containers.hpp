@@ -18,6 +18,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -27,6 +28,8 @@
 
 namespace chaintrue::grid {
 
+/// Texts in a list: names, sentences, words of a command line.
+using Words = std::vector<std::string>;
 /// Positions in a list, of rows in a matrix and of its columns; a flag for each of a list.
 using Indices = std::vector<std::size_t>;
 using Rows = std::vector<Index>;

@@ -132,3 +132,8 @@ std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& p
                                                   Model model = Model::elastic);
 
 }  // namespace chaintrue::model
+
+/// Exported: this name is used throughout chaintrue.
+namespace chaintrue {
+using model::Model;
+}  // namespace chaintrue

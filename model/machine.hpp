@@ -138,5 +138,8 @@ void require_none(const std::vector<MachineProblem>& problems);
 namespace chaintrue {
 using model::AppliedEffect;
 using model::Bed;
+using model::Feed;
 using model::Machine;
+using model::MachineProblem;
+using model::Ring;
 }  // namespace chaintrue

@@ -69,3 +69,8 @@ struct ChangePriors {
 inline constexpr ChangePriors kChangePriors{};
 
 }  // namespace chaintrue::model
+
+/// Exported: this name is used throughout chaintrue.
+namespace chaintrue {
+using model::Change;
+}  // namespace chaintrue

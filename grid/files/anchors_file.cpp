@@ -29,27 +29,25 @@ auto fitted_coordinate_record() {
         per_belt_record<double>(number(kAnyNumber)));
 }
 
-auto bad_record() {
-  RECORD(BadBeltReading, "a bad reading")
-  REQUIRED(point, "Number of the place, from 0.", index_number(0, kMostPlaces))
-  REQUIRED(belt, "The belt.", belt_word())
-  NAMED(required, "off_mm", residual_mm, "Reading minus the value predicted from all others.",
-        kMillimetres);
-}
+RECORD_OF(BadBeltReading, "a bad reading")
+REQUIRED(point, "Number of the place, from 0.", index_number(0, kMostPlaces))
+REQUIRED(belt, "The belt.", belt_word())
+NAMED(required, "off_mm", residual_mm, "Reading minus the value predicted from all others.",
+      kMillimetres)
+END_RECORD;
 
 auto residual_record() {
   RECORD(BeltResidual, "a reading's residual")
   NAMED(required, "off_mm", residual_mm, "Reading minus fitted value.", kMillimetres)
   REQUIRED(counts, "False if it was left out.")
   REQUIRED(sigmas,
-           "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
-           kAnyNumber)
+           "Distance from a fit without it, in sigmas; 0 if no other reading determines it.")
   NAMED(required, "beside_mm", deleted_residual_mm,
         "Reading minus the value predicted from all others.", kMillimetres);
 }
 
 void residual_keys(Record<FittedPlace>& place) {
-  for (const model::Belt belt : model::kBelts) {
+  for (const Belt belt : kBelts) {
     place.computed(
         name(belt), fmt::format("Residual of the {} belt.", words(belt)), true,
         object(residual_record()),
@@ -58,22 +56,21 @@ void residual_keys(Record<FittedPlace>& place) {
   }
 }
 
-auto fitted_place_record() {
-  RECORD(FittedPlace, "a fitted place")
-  FIELD(place, &FittedPlace::at, "x of the tool, to the right of the bottom left anchor.",
-        "y of the tool, up from the bottom left anchor.", kMillimetres)
-  FIELD(
-      computed, "covariance_mm2", "Covariance of x and y: xx, xy, yy.", true,
-      exactly<3>(number(kSquare), "3 numbers"),
-      [](FittedPlace& p, const std::array<double, 3>& c) {
-        p.covariance_mm2 << c[0], c[1], c[1], c[2];
-      },
-      [](const FittedPlace& p) {
-        const auto& c = p.covariance_mm2;
-        return std::array{c(0, 0), c(0, 1), c(1, 1)};
-      })
-  ALSO(residual_keys);
-}
+RECORD_OF(FittedPlace, "a fitted place")
+FIELD(place, &FittedPlace::at, "x of the tool, to the right of the bottom left anchor.",
+      "y of the tool, up from the bottom left anchor.", kMillimetres)
+FIELD(
+    computed, "covariance_mm2", "Covariance of x and y: xx, xy, yy.", true,
+    exactly<3>(number(kSquare), "3 numbers"),
+    [](FittedPlace& p, const std::array<double, 3>& c) {
+      p.covariance_mm2 << c[0], c[1], c[1], c[2];
+    },
+    [](const FittedPlace& p) {
+      const auto& c = p.covariance_mm2;
+      return std::array{c(0, 0), c(0, 1), c(1, 1)};
+    })
+ALSO(residual_keys)
+END_RECORD;
 
 using Row = std::array<double, 5>;
 using Rows = std::array<Row, 5>;
@@ -81,35 +78,32 @@ using RowMajor = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
 auto both_predictions_record() {
   RECORD(BeltsFit, "what was predicted")
-  REQUIRED(one_left_out, "Each place predicted from all others.", prediction_record())
+  REQUIRED(one_left_out, "Each place predicted from all others.")
   OPTIONAL(half_left_out,
            "Each half predicted from the other; null for fewer than "
-           "ten places.",
-           prediction_record());
+           "ten places.");
 }
 
 /// For the belts' table, with values that it may have.
 void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
-  const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
-  for (const model::MachineProblem& problem :
+  const std::vector<AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
+  for (const MachineProblem& problem :
        model::effects::problems_in(model::belts::belt_effects(), applied))
     at.problems().add(at.pointer() + problem.parameter.substr(2), problem);
 }
 
-auto cause_in_fit_record() {
-  RECORD(CauseInAnchorFit, "a cause with the anchors")
-  REQUIRED(effect, "The cause, by its id in docs/maslow4.md.")
-  SPARSE(side, "The belt, or all four.", one_of({"tl", "tr", "bl", "br", "all"}))
-  REQUIRED(parameters,
-           "Its size and onset, averaged over the models that the readings leave possible.",
-           dictionary(number(kAnyNumber)))
-  REQUIRED(sigma, "Uncertainty of its size, 1 sigma.", kAnyNumber)
-  REQUIRED(probability,
-           "Its probability under the prior used for sigmas, which assumes causes to be "
-           "common; not a verdict.",
-           kShare)
-      .check(check_cause);
-}
+RECORD_OF(CauseInAnchorFit, "a cause with the anchors")
+REQUIRED(effect, "The cause, by its id in docs/maslow4.md.")
+SPARSE(side, "The belt, or all four.", one_of({"tl", "tr", "bl", "br", "all"}))
+REQUIRED(parameters,
+         "Its size and onset, averaged over the models that the readings leave possible.",
+         dictionary(number(kAnyNumber)))
+REQUIRED(sigma, "Uncertainty of its size, 1 sigma.")
+REQUIRED(probability,
+         "Its probability under the prior used for sigmas, which assumes causes to be "
+         "common; not a verdict.",
+         kShare)
+    .check(check_cause) END_RECORD;
 
 auto fit_record() {
   RECORD(BeltsFit, "a fit of four belts")
@@ -136,41 +130,34 @@ auto fit_record() {
            per_belt_record<double>(number(kAnyNumber)))
   FIELD(part, "foretold", "Lower belts predicted from the upper two at places left out of the fit.",
         true, both_predictions_record())
-  OPTIONAL(scale, "From taped distances; absent: not known.", scale_record())
+  OPTIONAL(scale, "From taped distances; absent: not known.")
   SPARSE(causes,
          "Causes besides the anchors: the stretch of the belts, and others that are more "
-         "likely than not. Places and residuals are corrected for them.",
-         cause_in_fit_record())
-  SPARSE(bad, "Readings left out, the worst first.", bad_record())
+         "likely than not. Places and residuals are corrected for them.")
+  SPARSE(bad, "Readings left out, the worst first.")
   SPARSE(bad_points, "Places where fewer than three readings agree.",
          list(index_number(0, kMostPlaces)))
-  REQUIRED(places, "The fitted places.", fitted_place_record());
-}
-
-const Record<FittedAnchors>& fitted_anchors_record() {
-  KEPT_RECORD(FittedAnchors, "a chaintrue_anchors file", kAnchorsFormat)
-  SPARSE(name, "Name of the set.")
-  REQUIRED(fit, "The fit.", fit_record())
-  OPTIONAL(holes, "Results from cut and taped holes; absent: none were given.",
-           holes_with_belts_record())
-  ALSO(add_made_by_key)
-  ALSO(add_content_hash, "Hash of everything else; edited anchors are refused.")
-      .check([](const Cursor& at, FittedAnchors&) {
-        if (at.clean()) check_content(at);
-      });
-  return record;
+  REQUIRED(places, "The fitted places.");
 }
 
 }  // namespace
 
-Json anchors_schema() { return fitted_anchors_record().schema(); }
+FILE_RECORD(anchors, FittedAnchors, "a chaintrue_anchors file", kAnchorsFormat)
+SPARSE(name, "Name of the set.")
+REQUIRED(fit, "The fit.", fit_record())
+OPTIONAL(holes, "Results from cut and taped holes; absent: none were given.")
+ALSO(add_made_by_key)
+ALSO(add_content_hash, "Hash of everything else; edited anchors are refused.")
+    .check([](const Cursor& at, FittedAnchors&) {
+      if (at.clean()) check_content(at);
+    }) END_FILE_RECORD;
 
 FittedAnchors parse_anchors(const std::string& text, const std::string& file) {
-  return read_document(fitted_anchors_record(), text, file);
+  return read_document(anchors_record(), text, file);
 }
 
 std::string write_anchors(const FittedAnchors& anchors, const std::optional<Provenance>& made_by) {
-  return print_with_hash(with_made_by(fitted_anchors_record().write(anchors), made_by));
+  return print_with_hash(with_made_by(anchors_record().write(anchors), made_by));
 }
 
 }  // namespace chaintrue::grid::files

@@ -61,6 +61,6 @@ Maslow4Settings write_maslow4_settings(const BeltsFit& fit);
 /// applied. \throws std::invalid_argument for a diagnosis of chains.
 Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found);
 /// The machine's settings once the lines are pasted.
-model::BeltMachine machine_as_pasted(const BeltsFit& fit);
+BeltMachine machine_as_pasted(const BeltsFit& fit);
 
 }  // namespace chaintrue::grid::files

@@ -11,9 +11,9 @@ namespace chaintrue::grid::files {
 namespace {
 
 template <class Place>
-Json points_of(const std::vector<Place>& places, const std::vector<model::ChainLengths>& lengths) {
+Json points_of(const std::vector<Place>& places, const std::vector<ChainLengths>& lengths) {
   Json points = Json::array();
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const auto i : each_index(places)) {
     points.push_back({{"x_mm", places[i].x_mm},
                       {"y_mm", places[i].y_mm},
                       {"left_mm", lengths[i].left_mm},
@@ -25,21 +25,21 @@ Json points_of(const std::vector<Place>& places, const std::vector<model::ChainL
 /// The common part of a set of holes and a grid, in their order; `bad` is the key of `indices`.
 struct Hidden {
   std::uint64_t seed;
-  const std::vector<model::AppliedEffect>& effects;
+  const std::vector<AppliedEffect>& effects;
   const std::vector<synthetic::SettingOffset>& offsets;
-  model::SheetPlacement sheet;
+  SheetPlacement sheet;
   const char* bad;
-  const std::vector<std::size_t>& indices;
+  const Indices& indices;
   Json points;
-  const model::Machine& machine;
+  const Machine& machine;
 };
 
 std::string written(Hidden hidden) {
   Json file = headed(kAnswerFormat);
   file["seed"] = hidden.seed;
-  file["effects"] = list(effect_record()).write(hidden.effects);
+  file["effects"] = list(record_of(Of<AppliedEffect>())).write(hidden.effects);
   file["settings"] = json_list(hidden.offsets, [](const synthetic::SettingOffset& offset) {
-    return Json{{"setting", std::string(model::name(offset.setting))}, {"offset", offset.offset}};
+    return Json{{"setting", name(offset.setting)}, {"offset", offset.offset}};
   });
   file["sheet"] = {{"x_mm", hidden.sheet.x_mm},
                    {"y_mm", hidden.sheet.y_mm},
@@ -53,9 +53,9 @@ std::string written(Hidden hidden) {
 /// True settings less stated ones.
 std::vector<synthetic::SettingOffset> offsets_of(const synthetic::SyntheticHoles& made) {
   std::vector<synthetic::SettingOffset> offsets;
-  for (const model::Setting setting : model::kMachineSettings) {
+  for (const Setting setting : kMachineSettings) {
     const double offset =
-        model::stated_value(made.truth, setting) - model::stated_value(*made.set.machine, setting);
+        stated_value(made.truth, setting) - stated_value(*made.set.machine, setting);
     if (offset != 0.0) offsets.push_back({setting, offset});
   }
   return offsets;
@@ -75,18 +75,15 @@ std::string write_answer(const synthetic::SyntheticHoles& made, const synthetic:
 
 namespace {
 
-using model::effects::Effect;
-using model::effects::EffectSide;
-
 Json side_json(EffectSide side) {
-  return side == EffectSide::none ? Json(nullptr) : Json(std::string(name(side)));
+  return side == EffectSide::none ? Json(nullptr) : Json(name(side));
 }
 
-Json parameter_json(const model::effects::EffectParameter& parameter) {
+Json parameter_json(const EffectParameter& parameter) {
   return {{"name", parameter.name},
           {"symbol", parameter.symbol},
           {"meaning", parameter.meaning},
-          {"role", parameter.role == model::effects::ParameterRole::size ? "size" : "place"},
+          {"role", parameter.role == ParameterRole::size ? "size" : "place"},
           {"null", parameter.null},
           {"usual", parameter.nominal},
           {"lower", parameter.lower},
@@ -156,7 +153,7 @@ std::string write_catalogue(const std::vector<const Effect*>& effects) {
 
 std::string write_effect_picture(const synthetic::EffectPicture& picture) {
   Json file = headed(kEffectPictureFormat);
-  file["effect"] = effect_record().write(picture.applied);
+  file["effect"] = record_of(Of<AppliedEffect>()).write(picture.applied);
   file["noise"] = {{"length_mm", picture.noise.length_mm},
                    {"position_mm", picture.noise.position_mm}};
   file["marks"] = json_list(picture.marks, mark_json);

@@ -31,7 +31,7 @@ std::string write_answer(const synthetic::SyntheticHoles& made, const synthetic:
 
 /// { "file_type": "chaintrue_effects", ..., "effects": [ {"effect", "station", "sides",
 /// "parameters", words ...} ] }
-std::string write_catalogue(const std::vector<const model::effects::Effect*>& effects);
+std::string write_catalogue(const std::vector<const Effect*>& effects);
 /// { "file_type": "chaintrue_effect_picture", ..., "effect", "marks", "squares", "strength" }
 std::string write_effect_picture(const synthetic::EffectPicture& picture);
 

@@ -12,34 +12,29 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::SheetPlacement;
-
 constexpr Range kPositiveMm{"mm", 1e-9, 1e6};
 constexpr Range kFactor{"", 1e-3, 1e3};
 constexpr Range kAngle{"rad", -1.0, 1.0};
 constexpr int kMostSets = 1000;
 
-auto belt_hole_record() {
-  RECORD(BeltHole, "a fitted hole")
-  REQUIRED(name, "Its name.")
-  FIELD(place, &BeltHole::commanded, "Commanded x.", "Commanded y, up.", kMillimetres)
-  FIELD(required, "mark_x_mm",
-        "x from the fitted anchors, in the frame of the commands; the sheet may be elsewhere.",
-        path(&BeltHole::mark, &model::MarkPoint::x_mm), kMillimetres)
-  FIELD(required, "mark_y_mm", "y from the fitted anchors, up.",
-        path(&BeltHole::mark, &model::MarkPoint::y_mm), kMillimetres);
-}
+RECORD_OF(BeltHole, "a fitted hole")
+REQUIRED(name, "Its name.")
+FIELD(place, &BeltHole::commanded, "Commanded x.", "Commanded y, up.", kMillimetres)
+NESTED(required, "mark_x_mm", mark, x_mm,
+       "x from the fitted anchors, in the frame of the commands; the sheet may be elsewhere.",
+       kMillimetres)
+NESTED(required, "mark_y_mm", mark, y_mm, "y from the fitted anchors, up.", kMillimetres)
+END_RECORD;
 
-auto taped_distance_record() {
-  RECORD(BeltTapedDistance, "a fitted distance")
-  REQUIRED(set, "Number of the file of holes, from 0.", index_number(0, kMostSets))
-  NAMED(required, "between", words, "Its ends.")
-  REQUIRED(measured_mm, "Taped distance, without the hook offset.", kMillimetres)
-  NAMED(required, "off_mm", residual_mm, "Taped minus fitted.", kMillimetres)
-  REQUIRED(left_out_mm, "Taped minus the prediction of a fit without it.", kMillimetres)
-  REQUIRED(left_out_sigma_mm, "Uncertainty of that, 1 sigma.", kSigmaMm)
-  NAMED(required, "set_aside", rejected, "It contradicts the others and was not used.");
-}
+RECORD_OF(BeltTapedDistance, "a fitted distance")
+REQUIRED(set, "Number of the file of holes, from 0.", index_number(0, kMostSets))
+NAMED(required, "between", words, "Its ends.")
+REQUIRED(measured_mm, "Taped distance, without the hook offset.", kMillimetres)
+NAMED(required, "off_mm", residual_mm, "Taped minus fitted.", kMillimetres)
+REQUIRED(left_out_mm, "Taped minus the prediction of a fit without it.", kMillimetres)
+REQUIRED(left_out_sigma_mm, "Uncertainty of that, 1 sigma.", kSigmaMm)
+NAMED(required, "set_aside", rejected, "It contradicts the others and was not used.")
+END_RECORD;
 
 /// x, y, and the tool's offset in x and y.
 using MovedPlace = std::array<double, 4>;
@@ -54,23 +49,22 @@ void take_moved_places(DisplacementParts& parts, const std::vector<MovedPlace>& 
 
 std::optional<std::vector<MovedPlace>> moved_places(const DisplacementParts& parts) {
   std::vector<MovedPlace> places;
-  for (const model::MarkPoint& at : parts.places) {
+  for (const MarkPoint& at : parts.places) {
     const auto row = 2 * as_index(places.size());
     places.push_back({at.x_mm, at.y_mm, parts.at_mm[row], parts.at_mm[row + 1]});
   }
   return places;
 }
 
-auto displacement_record() {
-  RECORD(DisplacementParts, "a displacement of the tool")
-  REQUIRED(size_mm, "Its prior sigma, on each axis.", kPositiveMm)
-  REQUIRED(reach_mm, "Length over which it changes.", kPositiveMm)
-  FIELD(computed, "places",
-        "For each place x, y, and the displacement of the tool in x and y from the "
-        "position given by its upper two belts; mm.",
-        true, list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
-        take_moved_places, moved_places);
-}
+RECORD_OF(DisplacementParts, "a displacement of the tool")
+REQUIRED(size_mm, "Its prior sigma, on each axis.", kPositiveMm)
+REQUIRED(reach_mm, "Length over which it changes.", kPositiveMm)
+FIELD(computed, "places",
+      "For each place x, y, and the displacement of the tool in x and y from the "
+      "position given by its upper two belts; mm.",
+      true, list(exactly<4>(number(kMillimetres), "four numbers of each place"), 1),
+      take_moved_places, moved_places)
+END_RECORD;
 
 auto stated_sheet_record() {
   RECORD(SheetPlacement, "where the sheet lies")
@@ -97,35 +91,31 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
 
 }  // namespace
 
-Record<HolesWithBelts> holes_with_belts_record() {
-  RECORD(HolesWithBelts, "what holes add to belts")
-  REQUIRED(machine, "The machine, with the anchors in force when the holes were cut.",
-           belt_machine_record())
-  REQUIRED(holes, "Holes of the first file, whose sheet defines the frame of the map.",
-           belt_hole_record())
-  REQUIRED(distances, "All taped distances.", taped_distance_record())
-  REQUIRED(noise_factor, "Estimated noise of tape and holes, relative to the given one.", kFactor)
-  REQUIRED(left_out_rms_mm,
-           "Rms of the distances left out one at a time, without those that were rejected.",
-           kSigmaMm)
-  OPTIONAL(displacement,
-           "Displacement of the tool from the position given by its upper two belts; absent: "
-           "the holes show none.",
-           displacement_record())
-  OPTIONAL(
-      sheet,
-      "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
-      converted<Vector3d>(
-          object(stated_sheet_record()),
-          [](const SheetPlacement& own) { return Vector3d(own.x_mm, own.y_mm, own.rotation_rad); },
-          [](const Vector3d& own) {
-            return SheetPlacement{own.x(), own.y(), own.z()};
-          }))
-  REQUIRED(covariance,
-           "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
-           "displacement at each of its places.",
-           matrix_of_numbers(kAnyNumber, 0))
-      .check(check_together);
-}
+RECORD_OF(HolesWithBelts, "what holes add to belts")
+REQUIRED(machine, "The machine, with the anchors in force when the holes were cut.",
+         belt_machine_record())
+REQUIRED(holes, "Holes of the first file, whose sheet defines the frame of the map.")
+REQUIRED(distances, "All taped distances.")
+REQUIRED(noise_factor, "Estimated noise of tape and holes, relative to the given one.", kFactor)
+REQUIRED(left_out_rms_mm,
+         "Rms of the distances left out one at a time, without those that were rejected.", kSigmaMm)
+OPTIONAL(displacement,
+         "Displacement of the tool from the position given by its upper two belts; absent: "
+         "the holes show none.")
+OPTIONAL(sheet,
+         "From its measured edges; absent: the holes, as a whole, are where they were commanded.",
+         converted<Vector3d>(
+             object(stated_sheet_record()),
+             [](const SheetPlacement& own) {
+               return Vector3d(own.x_mm, own.y_mm, own.rotation_rad);
+             },
+             [](const Vector3d& own) {
+               return SheetPlacement{own.x(), own.y(), own.z()};
+             }))
+REQUIRED(covariance,
+         "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
+         "displacement at each of its places.",
+         matrix_of_numbers(kAnyNumber, 0))
+    .check(check_together) END_RECORD;
 
 }  // namespace chaintrue::grid::files

@@ -15,8 +15,6 @@
 
 namespace chaintrue::grid::files {
 
-using model::Belt;
-
 std::string lengths_in_words(const BeltPoint& point) {
   const auto& l = point.lengths_mm;
   return fmt::format("tl {}, tr {}, bl {}, br {}", l.tl, l.tr, l.bl, l.br);
@@ -26,7 +24,7 @@ bool holds_repeats(const MeasuredBelts& belts) {
   constexpr double kSamePlaceMm = 2.0;
   for (std::size_t i = 1; i < belts.points.size(); ++i) {
     double farthest_mm = 0.0;
-    for (const Belt belt : model::kBelts) {
+    for (const Belt belt : kBelts) {
       farthest_mm = std::max(farthest_mm, std::abs(belts.points[i].lengths_mm[belt] -
                                                    belts.points[i - 1].lengths_mm[belt]));
     }
@@ -38,7 +36,7 @@ bool holds_repeats(const MeasuredBelts& belts) {
 std::vector<BeltCopy> copies_of(const std::vector<BeltPoint>& points) {
   std::map<std::array<double, 4>, std::size_t> known;
   std::vector<BeltCopy> copies;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     const auto& l = points[i].lengths_mm;
     const auto [first, is_new] = known.emplace(std::array{l.tl, l.tr, l.bl, l.br}, i);
     if (!is_new) copies.push_back({i, first->second});
@@ -84,11 +82,11 @@ struct BeltsChecks {
   }
 
   void check_pulled() const {
-    if (belts.machine.orientation == model::Orientation::flat) return;
-    for (std::size_t i = 0; i < belts.points.size(); ++i) {
+    if (belts.machine.orientation == Orientation::flat) return;
+    for (const auto i : each_index(belts.points)) {
       if (!belts.points[i].pulled) continue;
       for (const Belt belt : *belts.points[i].pulled) {
-        if (!model::is_upper(belt)) continue;
+        if (!is_upper(belt)) continue;
         problems.add(places.point(i, "pulled"), std::string(name(belt)), ProblemKind::contradiction,
                      "bl and br only: on an upright frame tl and tr hold the sled and are never "
                      "pulled; if the frame lies flat, use \"orientation\": \"flat\"");
@@ -191,7 +189,7 @@ void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Pro
 }
 
 void check_belt_distances(const MeasuredBelts& belts, Problems& problems) {
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+  for (const auto i : each_index(belts.distances)) {
     const BeltDistance& distance = belts.distances[i];
     const auto place = [&](std::string_view end) {
       return fmt::format("/distances/{}/{}", i, end);

@@ -18,7 +18,7 @@ namespace {
 
 /// The ends of distances at these points, which are the only ones that remain.
 void move_ends(const PointIndices& remaining, MeasuredBelts& belts, Problems& problems) {
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+  for (const auto i : each_index(belts.distances)) {
     for (BeltEnd* end : {&belts.distances[i].from, &belts.distances[i].to}) {
       auto* index = std::get_if<std::size_t>(end);
       if (index == nullptr) continue;
@@ -34,7 +34,7 @@ void move_ends(const PointIndices& remaining, MeasuredBelts& belts, Problems& pr
   }
 }
 
-void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Problems& problems) {
+void leave_out(const Indices& without, MeasuredBelts& belts, Problems& problems) {
   const std::size_t count = belts.points.size();
   for (const std::size_t number : without) {
     if (number <= count) continue;
@@ -51,8 +51,8 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
 
 }  // namespace
 
-std::vector<std::size_t> point_numbers_of(const std::string& text, const std::string& option,
-                                          std::string_view what) {
+Indices point_numbers_of(const std::string& text, const std::string& option,
+                         std::string_view what) {
   return list_of_option(text, option,
                         fmt::format("numbers of {}, counted from 1, as in 7,12", what),
                         [](const std::string& part) -> std::optional<std::size_t> {
@@ -60,8 +60,7 @@ std::vector<std::size_t> point_numbers_of(const std::string& text, const std::st
                         });
 }
 
-ReadBelts parse_belts(const std::string& text, const std::string& file,
-                      const std::vector<std::size_t>& without) {
+ReadBelts parse_belts(const std::string& text, const std::string& file, const Indices& without) {
   Problems problems(file);
   ReadBelts read{read_document(belts_record(), text, problems), {}};
   if (!without.empty()) {
@@ -86,7 +85,7 @@ ReadBelts parse_belts(const std::string& text, const std::string& file,
   return read;
 }
 
-PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& without) {
+PointIndices indices_without(std::size_t kept, const Indices& without) {
   PointIndices indices;
   if (without.empty()) return indices;
   for (std::size_t i = 0; indices.size() < kept; ++i) {
@@ -95,7 +94,7 @@ PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& w
   return indices;
 }
 
-std::string write_belts(const MeasuredBelts& belts, const std::vector<std::string>& comments) {
+std::string write_belts(const MeasuredBelts& belts, const Words& comments) {
   const Json body = belts_record().write(belts);
   Json json = Json::object();
   for (const auto& [key, value] : body.items()) {

@@ -13,44 +13,37 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Anchor;
-using model::Belt;
-using model::BeltMachine;
-using model::kBelts;
-using model::PerBelt;
-
 struct StatedAnchor {
   std::optional<double> x_mm;
   std::optional<double> y_mm;
   std::optional<double> z_mm;
 };
 
-auto anchor_record() {
-  RECORD(StatedAnchor, "an anchor")
-  OPTIONAL(x_mm,
-           "x of the point where the belt leaves the frame, to the right of the bottom "
-           "left anchor. Given for all four anchors or for none.",
-           kMillimetres)
-  OPTIONAL(y_mm, "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
-           kMillimetres)
-  OPTIONAL(z_mm, "Its height above the bed; default: the firmware's.", kMillimetres);
-}
+RECORD_OF(StatedAnchor, "an anchor")
+OPTIONAL(x_mm,
+         "x of the point where the belt leaves the frame, to the right of the bottom "
+         "left anchor. Given for all four anchors or for none.",
+         kMillimetres)
+OPTIONAL(y_mm, "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
+         kMillimetres)
+OPTIONAL(z_mm, "Its height above the bed; default: the firmware's.", kMillimetres)
+END_RECORD;
 
-auto anchors_record() {
+auto four_anchors_record() {
   RECORD(PerBelt<StatedAnchor>, "four anchors")
-  REQUIRED(tl, "Top left.", anchor_record())
-  REQUIRED(tr, "Top right.", anchor_record())
-  REQUIRED(bl, "Bottom left, the origin.", anchor_record())
-  REQUIRED(br, "Bottom right, on the x axis.", anchor_record());
+  REQUIRED(tl, "Top left.")
+  REQUIRED(tr, "Top right.")
+  REQUIRED(bl, "Bottom left, the origin.")
+  REQUIRED(br, "Bottom right, on the x axis.");
 }
 
 void read_anchors(const Cursor& at, BeltMachine& machine) {
-  const auto stated = anchors_record().read(at);
+  const auto stated = four_anchors_record().read(at);
   if (!stated) return;
   int known = 0;
   for (const Belt belt : kBelts) {
     const StatedAnchor& anchor = (*stated)[belt];
-    Anchor& own = machine.anchors[belt];
+    model::Anchor& own = machine.anchors[belt];
     own = {anchor.x_mm.value_or(0.0), anchor.y_mm.value_or(0.0), anchor.z_mm.value_or(own.z_mm)};
     known += (anchor.x_mm ? 1 : 0) + (anchor.y_mm ? 1 : 0);
   }
@@ -64,13 +57,13 @@ void read_anchors(const Cursor& at, BeltMachine& machine) {
 Json written_anchors(const BeltMachine& machine) {
   PerBelt<StatedAnchor> stated;
   for (const Belt belt : kBelts) {
-    const Anchor& own = machine.anchors[belt];
+    const model::Anchor& own = machine.anchors[belt];
     stated[belt].z_mm = own.z_mm;
     if (!machine.anchors_known) continue;
     stated[belt].x_mm = own.x_mm;
     stated[belt].y_mm = own.y_mm;
   }
-  return anchors_record().write(stated);
+  return four_anchors_record().write(stated);
 }
 
 auto belt_record() {
@@ -111,13 +104,12 @@ void add_pull(Record<BeltPoint>& record) {
 
 using ThrownAway = PerBelt<std::vector<double>>;
 
-auto thrown_away_record() {
-  RECORD(ThrownAway, "lengths of each belt")
-  NAMED(sparse, "tl_mm", tl, "Top left.", list(kLengthMm))
-  NAMED(sparse, "tr_mm", tr, "Top right.", list(kLengthMm))
-  NAMED(sparse, "bl_mm", bl, "Bottom left.", list(kLengthMm))
-  NAMED(sparse, "br_mm", br, "Bottom right.", list(kLengthMm));
-}
+RECORD_OF(ThrownAway, "lengths of each belt")
+NAMED(sparse, "tl_mm", tl, "Top left.", list(kLengthMm))
+NAMED(sparse, "tr_mm", tr, "Top right.", list(kLengthMm))
+NAMED(sparse, "bl_mm", bl, "Bottom left.", list(kLengthMm))
+NAMED(sparse, "br_mm", br, "Bottom right.", list(kLengthMm))
+END_RECORD;
 
 void add_lengths(Record<BeltPoint>& record) {
   using Lengths = PerBelt<double>;
@@ -137,9 +129,9 @@ constexpr int kMostReadings = 400000;
 
 void add_command(Record<BeltPoint>& record) {
   record.optional("commanded_x_mm", "Commanded x, from the crossing of the frame's diagonals.",
-                  path(&BeltPoint::commanded, &model::BedPoint::x_mm), kCoordinateMm);
+                  path(&BeltPoint::commanded, &BedPoint::x_mm), kCoordinateMm);
   record.optional("commanded_y_mm", "Commanded y, up from there.",
-                  path(&BeltPoint::commanded, &model::BedPoint::y_mm), kCoordinateMm);
+                  path(&BeltPoint::commanded, &BedPoint::y_mm), kCoordinateMm);
   record.check([](const Cursor& at, BeltPoint&) {
     if (at.has("commanded_x_mm") == at.has("commanded_y_mm")) return;
     const char* lacking = at.has("commanded_x_mm") ? "commanded_y_mm" : "commanded_x_mm";
@@ -147,31 +139,29 @@ void add_command(Record<BeltPoint>& record) {
   });
 }
 
-auto belt_point_record() {
-  RECORD(BeltPoint, "a place")
-  ALSO(add_lengths)
-  ALSO(add_command)
-  OPTIONAL(order, "Number of the visit. Either all places have one, all different, or none has.",
-           integer(0, 1000000))
-  FIELD(
-      computed, "pulled",
-      "Belts that a motor tensioned at the reading while the others held; default: those for the "
-      "frame's orientation.",
-      false, list(belt_word()),
-      [](BeltPoint& p, const std::vector<Belt>& found) {
-        p.pulled.emplace();
-        for (const Belt belt : kBelts) {
-          if (contains(found, belt)) p.pulled->push_back(belt);
-        }
-      },
-      [](const BeltPoint& p) { return p.pulled; })
-  ALSO(add_pull)
-  NAMED(sparse, "thrown_away", thrown_away_mm,
-        "Single readings that the controller discarded here.", thrown_away_record());
-}
+RECORD_OF(BeltPoint, "a place")
+ALSO(add_lengths)
+ALSO(add_command)
+OPTIONAL(order, "Number of the visit. Either all places have one, all different, or none has.",
+         integer(0, 1000000))
+FIELD(
+    computed, "pulled",
+    "Belts that a motor tensioned at the reading while the others held; default: those for the "
+    "frame's orientation.",
+    false, list(belt_word()),
+    [](BeltPoint& p, const std::vector<Belt>& found) {
+      p.pulled.emplace();
+      for (const Belt belt : kBelts) {
+        if (contains(found, belt)) p.pulled->push_back(belt);
+      }
+    },
+    &BeltPoint::pulled)
+ALSO(add_pull)
+NAMED(sparse, "thrown_away", thrown_away_mm, "Single readings that the controller discarded here.")
+END_RECORD;
 
 auto hole_place_record() {
-  RECORD(model::BedPoint, "where a hole was commanded")
+  RECORD(BedPoint, "where a hole was commanded")
   FIELD(place, "Commanded x, to the right of the crossing of the frame's diagonals.",
         "Commanded y, up from there.", kCoordinateMm);
 }
@@ -205,43 +195,39 @@ Value<BeltEnd> end_of_distance() {
            }}};
 }
 
-auto belt_distance_record() {
-  RECORD(BeltDistance, "a taped distance")
-  REQUIRED(from, "A place by its number from 0, an anchor, or a hole cut by the machine.",
-           end_of_distance())
-  REQUIRED(to, "The other end, in the same form.", end_of_distance())
-  REQUIRED(distance_mm, "The tape reading.", kLengthMm)
-  OPTIONAL(sigma_mm, "Noise of this reading, 1 sigma.", kTapeSigmaMm);
-}
+RECORD_OF(BeltDistance, "a taped distance")
+REQUIRED(from, "A place by its number from 0, an anchor, or a hole cut by the machine.",
+         end_of_distance())
+REQUIRED(to, "The other end, in the same form.", end_of_distance())
+REQUIRED(distance_mm, "The tape reading.", kLengthMm)
+OPTIONAL(sigma_mm, "Noise of this reading, 1 sigma.", kTapeSigmaMm)
+END_RECORD;
 
 }  // namespace
 
-Record<FirmwareFit> firmware_fit_record() {
-  constexpr Range kMisfit{"mm", 0.0, 10000.0};
-  RECORD(FirmwareFit, "the machine's own words of its fit")
-  REQUIRED(rms_mm, "Its rms, as it prints it.", kMisfit)
-  REQUIRED(max_mm, "Its largest misfit.", kMisfit);
-}
+constexpr Range kMisfit{"mm", 0.0, 10000.0};
+RECORD_OF(FirmwareFit, "the machine's own words of its fit")
+REQUIRED(rms_mm, "Its rms, as it prints it.", kMisfit)
+REQUIRED(max_mm, "Its largest misfit.", kMisfit)
+END_RECORD;
 
-Record<BeltPrediction> prediction_record() {
-  RECORD(BeltPrediction, "what was predicted")
-  REQUIRED(readings, "Number of predicted readings of lower belts.", index_number(0, kMostReadings))
-  REQUIRED(rms_mm, "Rms of reading minus prediction.", kSigmaMm)
-  REQUIRED(largest_mm, "Largest difference.", kSigmaMm);
-}
+RECORD_OF(BeltPrediction, "what was predicted")
+REQUIRED(readings, "Number of predicted readings of lower belts.", index_number(0, kMostReadings))
+REQUIRED(rms_mm, "Rms of reading minus prediction.", kSigmaMm)
+REQUIRED(largest_mm, "Largest difference.", kSigmaMm)
+END_RECORD;
 
-Record<BeltScale> scale_record() {
-  RECORD(BeltScale, "a scale")
-  REQUIRED(factor, "True length divided by the belts' length.", {"", 0.1, 10.0})
-  REQUIRED(sigma, "Its uncertainty, 1 sigma.", {"", 0.0, 10.0})
-  REQUIRED(residuals_mm, "Taped minus fitted, for each distance.", list(kMillimetres));
-}
+RECORD_OF(BeltScale, "a scale")
+REQUIRED(factor, "True length divided by the belts' length.", {"", 0.1, 10.0})
+REQUIRED(sigma, "Its uncertainty, 1 sigma.", {"", 0.0, 10.0})
+REQUIRED(residuals_mm, "Taped minus fitted, for each distance.", list(kMillimetres))
+END_RECORD;
 
 Record<BeltMachine> belt_machine_record() {
   RECORD(BeltMachine, "a machine with four belts")
   OPTIONAL(name, "Name of the machine in messages and pages.")
   FIELD(custom, "anchors", "Where the belts leave the frame; absent: not known yet.", false,
-        anchors_record().expected(), read_anchors, written_anchors)
+        four_anchors_record().expected(), read_anchors, written_anchors)
   FIELD(part, "belt", "The belts.", false, belt_record())
   OPTIONAL(arm_mm, "From the tool to the point where a belt's end is attached.", kMillimetres)
   OPTIONAL(end_extension_mm, "Length of the belt's end, from its last tooth to the arm.",
@@ -250,7 +236,7 @@ Record<BeltMachine> belt_machine_record() {
            "Thickness of spoilboard and work together, added to the heights of the anchors.",
            kMillimetres)
   OPTIONAL(orientation, "How the frame stands, which decides which belts are pulled.",
-           by_name_to(model::Orientation::flat))
+           by_name_to(Orientation::flat))
   OPTIONAL(lengths,
            "What a printed length includes: the belt, the belt with extension and arm, or the "
            "level span from anchor to tool.",
@@ -260,23 +246,16 @@ Record<BeltMachine> belt_machine_record() {
   OPTIONAL(setting_names,
            "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
            "the top level, as before July 2025.",
-           choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
-                                        {"top_level", model::SettingNames::top_level}}))
-      .check([](const Cursor& at, BeltMachine& own) {
-        report_impossible(at, model::problems_of(own));
-      });
+           in_order<model::SettingNames>({"in_kinematics", "top_level"}))
+      .check([](const Cursor& at, BeltMachine& own) { report_impossible(at, problems_of(own)); });
 }
 
-const Record<MeasuredBelts>& belts_record() {
-  KEPT_RECORD(MeasuredBelts, "a chaintrue_belts file", kBeltsFormat)
-  SPARSE(name, "Name of the set.")
-  OPTIONAL(machine, "The machine with its settings in force.", belt_machine_record())
-  REQUIRED(points, "The places, in any order.", belt_point_record())
-  SPARSE(distances, "Taped distances; without one the scale is unknown.", belt_distance_record())
-  OPTIONAL(firmware_fit, "The machine's report of its own fit.", firmware_fit_record());
-  return record;
-}
-
-Json belts_schema() { return belts_record().schema(); }
+FILE_RECORD(belts, MeasuredBelts, "a chaintrue_belts file", kBeltsFormat)
+SPARSE(name, "Name of the set.")
+OPTIONAL(machine, "The machine with its settings in force.", belt_machine_record())
+REQUIRED(points, "The places, in any order.")
+SPARSE(distances, "Taped distances; without one the scale is unknown.")
+OPTIONAL(firmware_fit, "The machine's report of its own fit.")
+END_FILE_RECORD;
 
 }  // namespace chaintrue::grid::files

@@ -12,13 +12,13 @@
 namespace chaintrue::grid::files {
 
 /// Includes the checks of model::problems_of.
-Record<model::BeltMachine> belt_machine_record();
+Record<BeltMachine> belt_machine_record();
 
 const Record<MeasuredBelts>& belts_record();
 
 template <class V>
-Record<model::PerBelt<V>> per_belt_record(const Value<V>& value) {
-  RECORD(model::PerBelt<V>, "a value for each belt")
+Record<PerBelt<V>> per_belt_record(const Value<V>& value) {
+  RECORD(PerBelt<V>, "a value for each belt")
   REQUIRED(tl, "Top left.", value)
   REQUIRED(tr, "Top right.", value)
   REQUIRED(bl, "Bottom left.", value)
@@ -26,12 +26,12 @@ Record<model::PerBelt<V>> per_belt_record(const Value<V>& value) {
 }
 
 /// tl, tr, bl, br.
-inline Value<model::Belt> belt_word() { return by_name_to(model::Belt::br); }
+inline Value<Belt> belt_word() { return by_name_to(Belt::br); }
 
-Record<BeltPrediction> prediction_record();
-Record<BeltScale> scale_record();
-Record<FirmwareFit> firmware_fit_record();
+Record<BeltPrediction> record_of(Of<BeltPrediction>);
+Record<BeltScale> record_of(Of<BeltScale>);
+Record<FirmwareFit> record_of(Of<FirmwareFit>);
 /// belt_holes_record.cpp.
-Record<HolesWithBelts> holes_with_belts_record();
+Record<HolesWithBelts> record_of(Of<HolesWithBelts>);
 
 }  // namespace chaintrue::grid::files

@@ -7,6 +7,23 @@
 
 namespace chaintrue::grid::files {
 
+/// The place of what a text does not hold.
+inline constexpr std::size_t npos = std::string_view::npos;
+
+/// Whether a text holds a letter or a word.
+template <class Word>
+bool has(std::string_view text, const Word& word) {
+  return text.find(word) != npos;
+}
+
+/// The text up to the next mark; the rest begins after it.
+inline std::string_view take_until(std::string_view& rest, char mark) {
+  const std::size_t end = rest.find(mark);
+  const std::string_view taken = rest.substr(0, end);
+  rest = end == npos ? std::string_view{} : rest.substr(end + 1);
+  return taken;
+}
+
 constexpr char in_lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }

@@ -14,7 +14,7 @@ namespace {
 /// The part common to checks of maps and anchors.
 Json verdict_of(const Check& check) {
   Json json = headed(kCheckFormat);
-  json["verdict"] = std::string(name(check.verdict));
+  json["verdict"] = name(check.verdict);
   json["decided"] = check.decided;
   json["sentence"] = check.sentence;
   json["not_told_apart"] = check.not_separable;
@@ -32,28 +32,28 @@ Json per_side(const QuantityFound& left, const QuantityFound& right) {
 
 Json hypothesis_of(const CheckHypothesis& hypothesis) {
   Json json;
-  json["what"] = std::string(name(hypothesis.what));
+  json["what"] = name(hypothesis.what);
   json["side"] = hypothesis.side.empty() ? Json(nullptr) : Json(hypothesis.side);
-  json["verdict"] = std::string(name(hypothesis.verdict));
+  json["verdict"] = name(hypothesis.verdict);
   json["probability"] = hypothesis.probability;
-  if (hypothesis.what == model::Change::tooth) json["teeth"] = hypothesis.count;
-  if (hypothesis.what == model::Change::bad_point) json["point"] = hypothesis.count;
+  if (hypothesis.what == Change::tooth) json["teeth"] = hypothesis.count;
+  if (hypothesis.what == Change::bad_point) json["point"] = hypothesis.count;
   return json;
 }
 
 Json hypothesis_of_map(const CheckHypothesis& hypothesis) {
   Json json = hypothesis_of(hypothesis);
-  if (hypothesis.what == model::Change::zero || hypothesis.what == model::Change::tooth ||
-      hypothesis.what == model::Change::zeros_and_pitch)
+  if (hypothesis.what == Change::zero || hypothesis.what == Change::tooth ||
+      hypothesis.what == Change::zeros_and_pitch)
     json["zero_shift_mm"] = per_side(hypothesis.added(0), hypothesis.added(1));
-  if (hypothesis.what == model::Change::pitch || hypothesis.what == model::Change::zeros_and_pitch)
+  if (hypothesis.what == Change::pitch || hypothesis.what == Change::zeros_and_pitch)
     json["elongation"] = per_side(hypothesis.elongation(0), hypothesis.elongation(1));
   return json;
 }
 
 Json hypothesis_of_anchors(const CheckHypothesis& hypothesis) {
   Json json = hypothesis_of(hypothesis);
-  if (hypothesis.what == model::Change::zero || hypothesis.what == model::Change::anchor)
+  if (hypothesis.what == Change::zero || hypothesis.what == Change::anchor)
     json["size_mm"] = hypothesis.size();
   return json;
 }
@@ -86,7 +86,7 @@ std::string write_anchors_check(const Check& check) {
 
 namespace {
 
-Json summary_of(const ErrorSummary& error) { return error_summary_record().write(error); }
+Json summary_of(const ErrorSummary& error) { return record_of(Of<ErrorSummary>()).write(error); }
 
 Json held_out(const HeldOutError& error) {
   return {{"chain", summary_of(error.chain)}, {"tool", summary_of(error.tool)}};
@@ -98,9 +98,9 @@ std::string write_fit(const CompensationMap& map, std::string_view sentence,
                       std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   Json json = headed(kFitFormat);
-  json["sentence"] = std::string(sentence);
+  json["sentence"] = sentence;
   json["points"] = contents.points.size();
-  json["set_aside"] = count_where(contents.points, [](const MapPoint& p) { return p.bad; });
+  json["set_aside"] = count_where(contents.points, &MapPoint::bad);
   json["one_at_a_time"] = held_out(contents.accuracy.leave_one_out);
   json["a_block_at_a_time"] = held_out(contents.accuracy.blocked);
   json["expected_tool"] = summary_of(contents.accuracy.expected_tool);

@@ -20,7 +20,7 @@ constexpr std::string_view kOfTheChain[] = {"chainpitch", "gearteeth", "chainove
 constexpr std::string_view kZeroUnlessSet[] = {"topbeamtilt", "leftchaintolerance",
                                                "rightchaintolerance"};
 
-std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
+std::vector<NamedSetting> anchors_of(const Machine& machine) {
   const auto number = [](double value) { return fmt::format("{}", value); };
   return {{"left_anchor_x", number(machine.motors.left.x_mm)},
           {"left_anchor_y", number(machine.motors.left.y_mm)},
@@ -53,15 +53,15 @@ bool are_equal(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::vector<NamedSetting> settings_in_force(const model::Machine& machine) {
+std::vector<NamedSetting> settings_in_force(const Machine& machine) {
   std::vector<NamedSetting> settings;
   switch (machine.controller.kind) {
-    case model::ControllerKind::fluidnc_wallplotter:
+    case ControllerKind::fluidnc_wallplotter:
       return anchors_of(machine);
-    case model::ControllerKind::ideal:
-      for (const model::Setting setting : model::kMachineSettings) {
-        settings.push_back({std::string(model::name(setting)),
-                            fmt::format("{}", model::stated_value(machine, setting))});
+    case ControllerKind::ideal:
+      for (const Setting setting : kMachineSettings) {
+        settings.push_back(
+            {std::string(name(setting)), fmt::format("{}", stated_value(machine, setting))});
       }
       return settings;
     default:

@@ -23,7 +23,7 @@ struct NamedSetting {
 
 /// For a Maslow GroundControl's names; for FluidNC's WallPlotter its anchors; for an ideal
 /// controller its machine. `machine` is as it was stated, not as it was calibrated.
-std::vector<NamedSetting> settings_in_force(const model::Machine& machine);
+std::vector<NamedSetting> settings_in_force(const Machine& machine);
 
 struct SettingChange {
   std::string name;

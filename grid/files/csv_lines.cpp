@@ -60,8 +60,8 @@ struct WayOfWriting {
 };
 
 void add_figures(std::string_view figures, WayOfWriting& way) {
-  const bool point = figures.find('.') != std::string_view::npos;
-  const bool comma = figures.find(',') != std::string_view::npos;
+  const bool point = has(figures, '.');
+  const bool comma = has(figures, ',');
   if (point && comma) {
     const bool by_comma = figures.find(',') < figures.find('.');
     if (!is_grouped_by(figures, by_comma ? ',' : '.')) return;
@@ -182,7 +182,7 @@ void for_each_line(std::string_view text, const Visit& visit) {
     const bool says_separator = is_first && line.starts_with("sep=");
     is_first = false;
     if (!is_skipped(line) && !says_separator && !visit(line, number)) return;
-    if (end == std::string_view::npos) return;
+    if (end == npos) return;
     const bool both = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
     text.remove_prefix(end + (both ? 2 : 1));
   }
@@ -224,7 +224,7 @@ char separator_of_line(std::string_view line) {
   const char best = *max_element(std::string_view(",;\t"),
                                  ascending([&](char mark) { return count_equal(line, mark); }));
   // Numbers with decimal commas between semicolons have more commas than semicolons.
-  return best == ',' && line.find(';') != std::string_view::npos ? ';' : best;
+  return best == ',' && has(line, ';') ? ';' : best;
 }
 
 /// A line above the first one with numbers, and how many of its cells hold something.

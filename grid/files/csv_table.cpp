@@ -25,8 +25,8 @@ bool looks_split_by_decimal_commas(const std::vector<CsvRow>& rows, std::size_t 
   return 2 * longer > rows.size() - 1;
 }
 
-std::vector<std::string> names_of(const std::vector<CsvColumn>& columns, bool is_required) {
-  std::vector<std::string> names;
+Words names_of(const std::vector<CsvColumn>& columns, bool is_required) {
+  Words names;
   for (const CsvColumn& column : columns) {
     if (column.is_required == is_required) names.push_back(column.name);
   }
@@ -72,12 +72,12 @@ struct CellOfColumn {
 std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<CsvColumn>& columns,
                                        Problems& problems) {
   std::vector<CellOfColumn> index(columns.size());
-  std::vector<std::string> found;
-  std::vector<std::size_t> unused;
+  Words found;
+  Indices unused;
   std::string remarks;
   bool is_wrong = false;
-  const std::vector<std::string> names = mapped(columns, &CsvColumn::name);
-  for (std::size_t i = 0; i < header.size(); ++i) {
+  const Words names = mapped(columns, &CsvColumn::name);
+  for (const auto i : each_index(header)) {
     const std::string& name = header[i].text;
     found.push_back(name);
     const ColumnName column = column_name(name);
@@ -95,7 +95,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
       remarks += fmt::format("; \"{}\" is there twice", name);
     }
   }
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  for (const auto i : each_index(columns))
     is_wrong = is_wrong || (columns[i].is_required && !index[i].index);
   if (!is_wrong) {
     for (const std::size_t i : unused) {
@@ -142,7 +142,7 @@ CsvLine read_line(const CsvRow& row, const std::vector<CsvColumn>& columns,
                   const std::vector<CellOfColumn>& index, Problems& problems) {
   const std::size_t problems_before = problems.list().size();
   CsvLine line;
-  for (std::size_t c = 0; c < columns.size(); ++c) {
+  for (const auto c : each_index(columns)) {
     auto& value = line.values.emplace_back();
     CsvCell& cell = line.cells.emplace_back(CsvCell{"", row.front().line, 1});
     if (!index[c].index) continue;
@@ -170,9 +170,7 @@ void drop_trailing_cells(std::vector<CsvRow>& rows) {
 }
 
 /// A row of another program's separators is one cell of them.
-bool is_empty(const CsvCell& cell) {
-  return cell.text.find_first_not_of(";,\t ") == std::string::npos;
-}
+bool is_empty(const CsvCell& cell) { return cell.text.find_first_not_of(";,\t ") == npos; }
 
 /// Rows of separators alone, and what was written below the last row of numbers: a note in words.
 void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
@@ -182,9 +180,8 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
     const std::size_t filled =
         count_where(last, [](const CsvCell& cell) { return !is_empty(cell); });
     const std::string& text = last.front().text;
-    const bool is_words = last.size() > 1
-                              ? !is_like_a_number(text) && !is_empty(last.front())
-                              : text.find(' ') != std::string::npos && !length_with_unit_mm(text);
+    const bool is_words = last.size() > 1 ? !is_like_a_number(text) && !is_empty(last.front())
+                                          : has(text, ' ') && !length_with_unit_mm(text);
     if (filled != 1 || !is_words || rows[0].size() < 2) return;
     problems.warn(last.front().place(), "a note without a reading: left out ({})", shortened(text));
     rows.pop_back();
@@ -193,7 +190,7 @@ void drop_notes(std::vector<CsvRow>& rows, Problems& problems) {
 
 }  // namespace
 
-std::vector<std::string> csv_header(std::string_view text) {
+Words csv_header(std::string_view text) {
   return mapped(header_of_csv(text),
                 [](const CsvCell& cell) { return column_name(cell.text).name; });
 }

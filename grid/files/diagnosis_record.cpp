@@ -15,18 +15,6 @@ namespace chaintrue::grid::files {
 
 namespace {
 
-using diagnosis::Bound;
-using diagnosis::CalibratedSetting;
-using diagnosis::Cause;
-using diagnosis::CauseId;
-using diagnosis::DeclaredAnswer;
-using diagnosis::Hypothesis;
-using diagnosis::LeftOver;
-using diagnosis::NotTestable;
-using diagnosis::ParameterEstimate;
-using model::effects::Effect;
-using model::effects::EffectSide;
-
 /// The effect that the extended machine declares, or else that of chains, of belts or of cords, in this
 /// order.
 Value<const Effect*> effect_word() {
@@ -102,16 +90,15 @@ void cause_keys(Record<T>& record) {
 
 }  // namespace
 
-Record<CauseId> cause_id_record() {
-  RECORD(CauseId, "an effect with its side")
-  ALSO(cause_keys);
-}
+RECORD_OF(CauseId, "an effect with its side")
+ALSO(cause_keys)
+END_RECORD;
 
 namespace {
 
 auto estimate_record() {
   RECORD(ParameterEstimate, "a value with its sigma")
-  REQUIRED(value, "The value.", kAnyNumber)
+  REQUIRED(value, "The value.")
   REQUIRED(sigma, "Its uncertainty, 1 sigma.", kNotNegative);
 }
 
@@ -124,7 +111,7 @@ void parameter_keys(Record<T>& record) {
        [] { return dictionary_schema(estimate_record().schema()); }},
       [](const Cursor& at, T& object) {
         if (!at.json().is_object())
-          return at.expect("an object, each value a value with its sigma");
+          return (void)at.expect("an object, each value a value with its sigma");
         for (const auto& [key, unused] : at.json().items()) {
           if (key == "comment") continue;
           if (auto estimate = estimate_record().read(at.child(key))) {
@@ -142,7 +129,7 @@ void parameter_keys(Record<T>& record) {
       });
   record.check([](const Cursor& at, T& object) {
     if (object.cause.effect == nullptr || !at.child("parameters").clean()) return;
-    std::vector<std::string> names;
+    Words names;
     for (const auto& parameter : object.cause.effect->parameters)
       names.emplace_back(parameter.name);
     for (const ParameterEstimate& estimate : object.parameters) {
@@ -156,11 +143,10 @@ void parameter_keys(Record<T>& record) {
   });
 }
 
-auto same_cause_record() {
-  RECORD(diagnosis::SameCause, "a cause of the same class")
-  ALSO(cause_keys)
-  ALSO(parameter_keys);
-}
+RECORD_OF(diagnosis::SameCause, "a cause of the same class")
+ALSO(cause_keys)
+ALSO(parameter_keys)
+END_RECORD;
 
 /// The effect that is hardest to distinguish from a cause with these data.
 struct Rival {
@@ -177,28 +163,26 @@ auto rival_record() {
 
 }  // namespace
 
-Record<Cause> cause_record() {
-  RECORD(Cause, "a cause")
-  ALSO(cause_keys)
-  REQUIRED(probability, "Its probability.", kShare)
-  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
-  REQUIRED(share_left, "Share of its signature that the settings do not absorb.", kShare)
-  REQUIRED(same_as, "Causes that such data cannot distinguish from it, with their sizes.",
-           same_cause_record())
-  ALSO(parameter_keys)
-  FIELD(
-      computed, "rival", "The effect that is hardest to distinguish from it in these data.", false,
-      object(rival_record()),
-      [](Cause& object, const Rival& rival) {
-        object.rival = rival.cause;
-        object.rival_collinearity = rival.collinearity;
-      },
-      [](const Cause& object) {
-        return object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
-                            : Json(nullptr);
-      })
-  REQUIRED(order_assumed, "It needs the order of the visits, which was not recorded.");
-}
+RECORD_OF(Cause, "a cause")
+ALSO(cause_keys)
+REQUIRED(probability, "Its probability.", kShare)
+NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
+REQUIRED(share_left, "Share of its signature that the settings do not absorb.", kShare)
+REQUIRED(same_as, "Causes that such data cannot distinguish from it, with their sizes.")
+ALSO(parameter_keys)
+FIELD(
+    computed, "rival", "The effect that is hardest to distinguish from it in these data.", false,
+    object(rival_record()),
+    [](Cause& object, const Rival& rival) {
+      object.rival = rival.cause;
+      object.rival_collinearity = rival.collinearity;
+    },
+    [](const Cause& object) {
+      return object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
+                          : Json(nullptr);
+    })
+REQUIRED(order_assumed, "It needs the order of the visits, which was not recorded.")
+END_RECORD;
 
 Record<Hypothesis> hypothesis_record() {
   RECORD(Hypothesis, "a hypothesis")
@@ -210,47 +194,41 @@ Record<Hypothesis> hypothesis_record() {
   REQUIRED(probability, "Its probability.", kShare);
 }
 
-Record<LeftOver> left_over_record() {
-  RECORD(LeftOver, "what remains")
-  NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
-  NULLABLE(
-      follows,
-      "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.")
-  REQUIRED(share, "Share of the whole.", kShare)
-  REQUIRED(p_value, "How often noise alone gives as much.", kShare);
-}
+RECORD_OF(LeftOver, "what remains")
+NAMED(required, "delta", signal_to_noise, "Signal-to-noise ratio.", kNotNegative)
+NULLABLE(follows,
+         "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.")
+REQUIRED(share, "Share of the whole.", kShare)
+REQUIRED(p_value, "How often noise alone gives as much.", kShare)
+END_RECORD;
 
-Record<NotTestable> not_testable_record() {
-  RECORD(NotTestable, "an effect that could not be tested")
-  ALSO(cause_keys)
-  REQUIRED(reason, "The reason.");
-}
+RECORD_OF(NotTestable, "an effect that could not be tested")
+ALSO(cause_keys)
+REQUIRED(reason, "The reason.")
+END_RECORD;
 
-Record<Bound> bound_record() {
-  RECORD(Bound, "a bound")
-  ALSO(cause_keys)
-  REQUIRED(parameter, "The parameter of the effect.")
-  REQUIRED(upper_95, "Upper limit with 95 % probability.", kNotNegative);
-}
+RECORD_OF(Bound, "a bound")
+ALSO(cause_keys)
+REQUIRED(parameter, "The parameter of the effect.")
+REQUIRED(upper_95, "Upper limit with 95 % probability.", kNotNegative)
+END_RECORD;
 
-Record<DeclaredAnswer> declared_answer_record() {
-  RECORD(DeclaredAnswer, "an answer")
-  ALSO(cause_keys)
-  REQUIRED(says,
-           "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
-           "at its declared size; open: neither; not_testable: these readings cannot show it.",
-           by_name_to(DeclaredAnswer::Says::not_testable))
-  REQUIRED(probability, "Probability that it acts.", kShare);
-}
+RECORD_OF(DeclaredAnswer, "an answer")
+ALSO(cause_keys)
+REQUIRED(says,
+         "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
+         "at its declared size; open: neither; not_testable: these readings cannot show it.",
+         by_name_to(DeclaredAnswer::Says::not_testable))
+REQUIRED(probability, "Probability that it acts.", kShare)
+END_RECORD;
 
-Record<CalibratedSetting> calibrated_setting_record() {
-  RECORD(CalibratedSetting, "a setting")
-  REQUIRED(setting, "Name of the setting.", setting_word())
-  REQUIRED(stated, "Value in the machine file.", kAnyNumber)
-  REQUIRED(stated_sigma, "Its uncertainty there, 1 sigma.", kNotNegative)
-  REQUIRED(calibrated, "Calibrated value.", kAnyNumber)
-  REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
-  REQUIRED(off, "True if it differs by more than its uncertainty allows.");
-}
+RECORD_OF(CalibratedSetting, "a setting")
+REQUIRED(setting, "Name of the setting.", setting_word())
+REQUIRED(stated, "Value in the machine file.")
+REQUIRED(stated_sigma, "Its uncertainty there, 1 sigma.", kNotNegative)
+REQUIRED(calibrated, "Calibrated value.")
+REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
+REQUIRED(off, "True if it differs by more than its uncertainty allows.")
+END_RECORD;
 
 }  // namespace chaintrue::grid::files

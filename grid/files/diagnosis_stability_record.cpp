@@ -4,10 +4,7 @@
 #include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
-using diagnosis::PartFinding;
 using diagnosis::Removal;
-using diagnosis::Stability;
-using diagnosis::Verdict;
 
 Value<Verdict> verdict_word() { return by_name_to(Verdict::nothing_found); }
 
@@ -32,62 +29,51 @@ constexpr Numbered kNumbered[] = {
 /// The number, for the kind that is left out. Lines have none.
 void index_keys(Record<Removal>& record) {
   for (const Numbered& numbered : kNumbered) {
-    record.computed(
-        numbered.key, numbered.meaning, false, index_number(),
-        [](Removal& object, std::size_t index) { object.index = index; },
-        [what = numbered.what](const Removal& object) {
-          if (object.what == what) return Json(object.index);
-          return what == Removal::What::point ? Json(nullptr) : kLeftOut;
-        });
+    record.computed(numbered.key, numbered.meaning, false, index_number(), &Removal::index,
+                    [what = numbered.what](const Removal& object) {
+                      if (object.what == what) return Json(object.index);
+                      return what == Removal::What::point ? Json(nullptr) : kLeftOut;
+                    });
   }
 }
 
 /// The position of a column or row.
 void line_key(Record<Removal>& record) {
   record.computed(
-      "at_mm", "x of a column, y of a row.", false, number(kMillimetres),
-      [](Removal& object, double at_mm) { object.at_mm = at_mm; },
+      "at_mm", "x of a column, y of a row.", false, number(kMillimetres), &Removal::at_mm,
       [](const Removal& object) { return is_line(object) ? Json(object.at_mm) : Json(nullptr); });
 }
 
-auto removal_record() {
-  RECORD(Removal, "points left out")
-  REQUIRED(what, "What was left out.",
-           choice<Removal::What>({{"point", Removal::What::point},
-                                  {"column", Removal::What::column},
-                                  {"row", Removal::What::row},
-                                  {"distance", Removal::What::distance},
-                                  {"hole", Removal::What::hole}}))
-  ALSO(index_keys)
-  ALSO(line_key)
-  REQUIRED(points, "Number of points left out with it.", index_number(1))
-  REQUIRED(verdict, "Verdict without it.", verdict_word())
-  REQUIRED(causes, "Causes named without it.", cause_id_record())
-  REQUIRED(stands, "True if the answer is the same.")
-  REQUIRED(probability, "Probability of the name without it.", kShare)
-  REQUIRED(support, "Share of the log evidence that depends on it, in natural logarithms.",
-           kAnyNumber)
-      .check([](const Cursor& at, Removal& object) {
-        if (!at.clean() || !at.has("what")) return;
-        const char* key = "at_mm";
-        const char* expected = "a number in mm";
-        for (const Numbered& numbered : kNumbered) {
-          if (numbered.what != object.what) continue;
-          key = numbered.key;
-          expected = numbered.expected;
-        }
-        const Cursor place = at.child(key);
-        if (place.json().is_null()) place.missing(expected);
-      });
-}
+RECORD_OF(Removal, "points left out")
+REQUIRED(what, "What was left out.",
+         in_order<Removal::What>({"point", "column", "row", "distance", "hole"}))
+ALSO(index_keys)
+ALSO(line_key)
+REQUIRED(points, "Number of points left out with it.", index_number(1))
+REQUIRED(verdict, "Verdict without it.", verdict_word())
+REQUIRED(causes, "Causes named without it.")
+REQUIRED(stands, "True if the answer is the same.")
+REQUIRED(probability, "Probability of the name without it.", kShare)
+REQUIRED(support, "Share of the log evidence that depends on it, in natural logarithms.")
+    .check([](const Cursor& at, Removal& object) {
+      if (!at.clean() || !at.has("what")) return;
+      const char* key = "at_mm";
+      const char* expected = "a number in mm";
+      for (const Numbered& numbered : kNumbered) {
+        if (numbered.what != object.what) continue;
+        key = numbered.key;
+        expected = numbered.expected;
+      }
+      const Cursor place = at.child(key);
+      if (place.json().is_null()) place.missing(expected);
+    }) END_RECORD;
 
 }  // namespace
 
-Record<Stability> stability_record() {
-  RECORD(Stability, "whether the name is stable")
-  REQUIRED(probability, "Smallest probability of the name.", kShare)
-  REQUIRED(removals, "What was left out, one at a time.", removal_record());
-}
+RECORD_OF(Stability, "whether the name is stable")
+REQUIRED(probability, "Smallest probability of the name.", kShare)
+REQUIRED(removals, "What was left out, one at a time.")
+END_RECORD;
 
 namespace {
 
@@ -102,8 +88,7 @@ void part_keys(Record<PartFinding>& part, const char* leading, const char* named
 Record<PartFinding> bed_part_record() {
   RECORD(PartFinding, "the probabilities without a quarter of the bed")
   REQUIRED(towards_rad,
-           "Direction of the quarter from the middle of the readings; from x towards y.",
-           kAnyNumber)
+           "Direction of the quarter from the middle of the readings; from x towards y.")
   ALSO(part_keys, "Most probable cause without it; nothing if none is more likely than not.",
        "The named causes, with their probabilities without it.");
 }
@@ -119,8 +104,6 @@ Record<PartFinding> session_record() {
 namespace {
 
 using diagnosis::HeldOut;
-using diagnosis::HeldOutImprovement;
-using diagnosis::Transfer;
 
 constexpr int kMostFolds = 1000;
 
@@ -170,25 +153,22 @@ void error_figures(Record<T>& record) {
 
 }  // namespace
 
-Record<HeldOutImprovement> improvement_record() {
-  RECORD(HeldOutImprovement, "the gain")
-  REQUIRED(scheme, "How points were left out.")
-  ALSO(error_figures)
-  REQUIRED(drop_mm2, "Reduction of the mean square.", kSigmaMm)
-  REQUIRED(drop_share, "The same as a share.", kShare)
-  REQUIRED(folds, "Number of times that points were left out.", integer(0, kMostFolds))
-  REQUIRED(folds_agree, "Number of these in which the same was named.", integer(0, kMostFolds))
-      .check([](const Cursor& at, HeldOutImprovement& object) {
-        if (at.clean() && object.folds_agree > object.folds)
-          at.child("folds_agree").expect("at most as many as folds");
-      });
-}
+RECORD_OF(HeldOutImprovement, "the gain")
+REQUIRED(scheme, "How points were left out.")
+ALSO(error_figures)
+REQUIRED(drop_mm2, "Reduction of the mean square.", kSigmaMm)
+REQUIRED(drop_share, "The same as a share.", kShare)
+REQUIRED(folds, "Number of times that points were left out.", integer(0, kMostFolds))
+REQUIRED(folds_agree, "Number of these in which the same was named.", integer(0, kMostFolds))
+    .check([](const Cursor& at, HeldOutImprovement& object) {
+      if (at.clean() && object.folds_agree > object.folds)
+        at.child("folds_agree").expect("at most as many as folds");
+    }) END_RECORD;
 
-Record<Transfer> transfer_record() {
-  RECORD(Transfer, "another grid predicted")
-  REQUIRED(to, "Name of the grid.")
-  REQUIRED(points, "Number of its points.")
-  ALSO(error_figures);
-}
+RECORD_OF(Transfer, "another grid predicted")
+REQUIRED(to, "Name of the grid.")
+REQUIRED(points, "Number of its points.")
+ALSO(error_figures)
+END_RECORD;
 
 }  // namespace chaintrue::grid::files

@@ -40,21 +40,18 @@ void check_middle(const Cursor& at, MeasureInFile& measure) {
     at.child("middle").expect("to be left out, because a length has only two ends");
 }
 
-auto measure_record() {
-  using Kind = DrawnMeasure::Kind;
-  using Measure = MeasureInFile;
-  RECORD(Measure, "a measure on a drawing")
-  REQUIRED(kind, "A length between two crosses, or the bow of a line.",
-           choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
-  REQUIRED(from, "The first cross.")
-  REQUIRED(to, "The last cross.")
-  SPARSE(middle, "For a bow: the cross on the line at which it was measured.")
-  NULLABLE(value_mm,
-           "The reading; null: not measured. A bow is positive if the line is on the left, "
-           "looking from its first cross to its last.",
-           kPlaceMm)
-  OPTIONAL(sigma_mm, "Noise of the reading, 1 sigma.", {"mm", 0.01, 50.0}).check(check_middle);
-}
+RECORD_OF(MeasureInFile, "a measure on a drawing")
+REQUIRED(kind, "A length between two crosses, or the bow of a line.",
+         in_order<DrawnMeasure::Kind>({"length", "bow"}))
+REQUIRED(from, "The first cross.")
+REQUIRED(to, "The last cross.")
+SPARSE(middle, "For a bow: the cross on the line at which it was measured.")
+NULLABLE(value_mm,
+         "The reading; null: not measured. A bow is positive if the line is on the left, "
+         "looking from its first cross to its last.",
+         kPlaceMm)
+OPTIONAL(sigma_mm, "Noise of the reading, 1 sigma.", {"mm", 0.01, 50.0})
+    .check(check_middle) END_RECORD;
 
 const DrawnCross* cross_of(const TestDrawing& drawing, const std::string& name) {
   return find_where(drawing.crosses, having(&DrawnCross::name, name));
@@ -62,11 +59,11 @@ const DrawnCross* cross_of(const TestDrawing& drawing, const std::string& name) 
 
 void check_drawing(const Cursor& at, DrawingInFile& drawing) {
   if (!at.clean()) return;
-  for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
+  for (const auto i : each_index(drawing.crosses)) {
     if (cross_of(drawing, drawing.crosses[i].name) != &drawing.crosses[i])
       at.child("crosses").element(i).child("name").expect("a name that no other cross has");
   }
-  for (std::size_t i = 0; i < drawing.lines.size(); ++i) {
+  for (const auto i : each_index(drawing.lines)) {
     const Cursor place = at.child("measures");
     const Cursor measure = place.element(i);
     const MeasureInFile& own = drawing.lines[i];
@@ -81,20 +78,20 @@ void check_drawing(const Cursor& at, DrawingInFile& drawing) {
   }
 }
 
-const Record<DrawingInFile>& drawing_record() {
-  using Drawing = DrawingInFile;
-  KEPT_RECORD(Drawing, "a test drawing", kDrawingFormat)
-  SPARSE(name, "Name of the drawing.")
-  FIELD(
-      computed, "set", "The plotter with the settings in force when the page was drawn.", true,
-      object(set_plotter_record()),
-      [](Drawing& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
-      [](const Drawing& drawing) { return static_cast<const SetPlotter&>(drawing); })
-  REQUIRED(crosses, "The crosses of the page.", list(cross_record(), 3))
-  NAMED(required, "measures", lines, "Readings of ruler and string.", measure_record())
-      .check(check_drawing);
-  return record;
-}
+}  // namespace
+
+FILE_RECORD(drawing, DrawingInFile, "a test drawing", kDrawingFormat)
+SPARSE(name, "Name of the drawing.")
+FIELD(
+    computed, "set", "The plotter with the settings in force when the page was drawn.", true,
+    object(set_plotter_record()),
+    [](Own& drawing, const SetPlotter& set) { static_cast<SetPlotter&>(drawing) = set; },
+    [](const Own& drawing) { return static_cast<const SetPlotter&>(drawing); })
+REQUIRED(crosses, "The crosses of the page.", list(cross_record(), 3))
+NAMED(required, "measures", lines, "Readings of ruler and string.")
+    .check(check_drawing) END_FILE_RECORD;
+
+namespace {
 
 DrawingInFile in_file(const TestDrawing& drawing, bool is_blank) {
   DrawingInFile file{drawing, {}};
@@ -132,7 +129,5 @@ std::string write_drawing(const TestDrawing& drawing) {
 std::string write_blank_drawing(const TestDrawing& drawing) {
   return write_document(drawing_record(), in_file(drawing, true));
 }
-
-Json drawing_schema() { return drawing_record().schema(); }
 
 }  // namespace chaintrue::grid::files

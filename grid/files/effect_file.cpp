@@ -15,7 +15,6 @@ namespace chaintrue::grid::files {
 namespace {
 
 using model::effects::Declaration;
-using model::effects::DeclarationProblem;
 using model::effects::DeclaredParameter;
 
 /// The usual size is one sigma from null; a place may be anywhere, 0 if allowed.
@@ -36,36 +35,29 @@ void check_parameter(const Cursor& at, DeclaredParameter& p) {
   if (p.meaning.empty()) p.meaning = place ? "where it sets in" : "how large it is";
 }
 
-auto parameter_record() {
-  RECORD(DeclaredParameter, "a parameter of an effect")
-  REQUIRED(name,
-           "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
-           "per another as in mm_per_rad; any other end is a plain number.")
-  SPARSE(symbol, "Its symbol in texts.")
-  SPARSE(meaning, "What it is.")
-  OPTIONAL(role, "size: how large the effect is. place: where or when it sets in.",
-           choice<ParameterRole>({{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
-  FIELD(
-      computed, "null", "The size at which there is no effect; default 0. A place has none.", false,
-      number(kAnyNumber), [](DeclaredParameter& p, double null) { p.null = null; },
-      [](const DeclaredParameter& p) {
+RECORD_OF(DeclaredParameter, "a parameter of an effect")
+REQUIRED(name,
+         "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
+         "per another as in mm_per_rad; any other end is a plain number.")
+SPARSE(symbol, "Its symbol in texts.")
+SPARSE(meaning, "What it is.")
+OPTIONAL(role, "size: how large the effect is. place: where or when it sets in.",
+         in_order<ParameterRole>({"size", "place"}))
+FIELD(computed, "null", "The size at which there is no effect; default 0. A place has none.", false,
+      number(kAnyNumber), &DeclaredParameter::null, [](const DeclaredParameter& p) {
         return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
       })
-  FIELD(
-      computed, "nominal",
+FIELD(computed, "nominal",
       "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
       "middle of its bounds.",
-      false, number(kAnyNumber), [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
-      [](const DeclaredParameter& p) { return p.nominal; })
-  REQUIRED(prior_sigma, "Prior sigma: for a size about null, for a place about nominal.",
-           kAnyNumber)
-  REQUIRED(lower, "The smallest value.", kAnyNumber)
-  REQUIRED(upper, "The largest value.", kAnyNumber)
-  NAMED(optional, "whole", integer,
-        "It takes whole numbers only; for effects on a reading or a visit.")
-  OPTIONAL(mirror_sign, "-1 if the mirrored machine has the negative value.", {"", -1.0, 1.0})
-      .check(check_parameter);
-}
+      false, number(kAnyNumber), &DeclaredParameter::nominal, &DeclaredParameter::nominal)
+REQUIRED(prior_sigma, "Prior sigma: for a size about null, for a place about nominal.")
+REQUIRED(lower, "The smallest value.")
+REQUIRED(upper, "The largest value.")
+NAMED(optional, "whole", integer,
+      "It takes whole numbers only; for effects on a reading or a visit.")
+OPTIONAL(mirror_sign, "-1 if the mirrored machine has the negative value.", {"", -1.0, 1.0})
+    .check(check_parameter) END_RECORD;
 
 std::string words_of_sizes(const Declaration& own) {
   if (own.parameters.empty()) return {};
@@ -81,10 +73,10 @@ void check_words(const Cursor&, Declaration& own) {
 /// The line and column of a byte of the text under this key, which escapes make longer in the file;
 /// empty if the key is not written as it is.
 std::string place_in_file(const std::string& json, const std::string& key, std::size_t offset) {
-  std::size_t at = std::string::npos;
+  std::size_t at = npos;
   do {
     at = json.rfind(key, at - 1);
-    if (at == std::string::npos) return {};
+    if (at == npos) return {};
   } while (json[json.find_first_not_of(" \t\r\n", at + key.size())] != ':');
   at = json.find('"', at + key.size()) + 1;
   for (; offset > 0; --offset) at += json[at] != '\\' ? 1 : json[at + 1] == 'u' ? 6 : 2;
@@ -93,8 +85,9 @@ std::string place_in_file(const std::string& json, const std::string& key, std::
 
 /// At this pointer; of a formula with the column in its text or, given the JSON of the declaration's own
 /// file, with line and column of the file.
-void add_problems(const std::string& pointer, const std::vector<DeclarationProblem>& found,
-                  Problems& problems, const std::string& json = {}) {
+void add_problems(const std::string& pointer,
+                  const std::vector<model::effects::DeclarationProblem>& found, Problems& problems,
+                  const std::string& json = {}) {
   for (const auto& [own_place, value, expected, offset] : found) {
     std::string place;
     if (offset) place = place_in_file(json, fmt::format("\"{}\"", own_place.substr(1)), *offset);
@@ -104,51 +97,44 @@ void add_problems(const std::string& pointer, const std::vector<DeclarationProbl
   }
 }
 
-/// Without the checks of model::effects::problems_of.
-const Record<Declaration>& declaration_record() {
-  KEPT_RECORD(Declaration, "a declared effect", kEffectFormat)
-  REQUIRED(id, "Its name: small letters, digits and _.")
-  SPARSE(instead_of, "The effect of the catalogue that it replaces; default: none, it is added.")
-  REQUIRED(acts_on,
-           "paper: where marks are written. chain: the length that is paid out. reading: "
-           "what is written down, by visits. visit: a single reading.",
-           by_name_to(model::effects::ActsOn::visit))
-  SPARSE(sides,
-         "Where it may act, each side tested separately; both: one value for two. "
-         "Default: on both equally.",
-         list(by_name_to(EffectSide::y, EffectSide::left)))
-  REQUIRED(parameters, "Its size, followed by the place where it sets in, if it has one.",
-           parameter_record())
-  SPARSE(adds_mm, "Formula for the amount added to a chain or a reading.")
-  SPARSE(adds_x_mm, "Formula for the shift of a mark in x.")
-  SPARSE(adds_y_mm, "Formula for the shift of a mark in y.")
-  SPARSE(elongation,
-         "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
-         "everything that is added.")
-  REQUIRED(cause, "The cause, as a diagnosis words it.")
-  SPARSE(signature, "How it shows on the bed.")
-  OPTIONAL(remedy_kind, "Where the remedy is applied.",
-           by_name_to(model::effects::RemedyKind::compensate_on_its_own))
-  REQUIRED(remedy, "What to do about it.")
-  REQUIRED(not_modelled, "What the formula omits.")
-  SPARSE(typical, "Its usual size, in words.")
-  SPARSE(source, "Source of the formula.").check(check_words);
-  return record;
-}
-
 }  // namespace
+
+/// Without the checks of model::effects::problems_of.
+FILE_RECORD(effect, Declaration, "a declared effect", kEffectFormat)
+REQUIRED(id, "Its name: small letters, digits and _.")
+SPARSE(instead_of, "The effect of the catalogue that it replaces; default: none, it is added.")
+REQUIRED(acts_on,
+         "paper: where marks are written. chain: the length that is paid out. reading: "
+         "what is written down, by visits. visit: a single reading.",
+         by_name_to(model::effects::ActsOn::visit))
+SPARSE(sides,
+       "Where it may act, each side tested separately; both: one value for two. "
+       "Default: on both equally.",
+       list(by_name_to(EffectSide::y, EffectSide::left)))
+REQUIRED(parameters, "Its size, followed by the place where it sets in, if it has one.")
+SPARSE(adds_mm, "Formula for the amount added to a chain or a reading.")
+SPARSE(adds_x_mm, "Formula for the shift of a mark in x.")
+SPARSE(adds_y_mm, "Formula for the shift of a mark in y.")
+SPARSE(elongation,
+       "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
+       "everything that is added.")
+REQUIRED(cause, "The cause, as a diagnosis words it.")
+SPARSE(signature, "How it shows on the bed.")
+OPTIONAL(remedy_kind, "Where the remedy is applied.",
+         by_name_to(model::effects::RemedyKind::compensate_on_its_own))
+REQUIRED(remedy, "What to do about it.")
+REQUIRED(not_modelled, "What the formula omits.")
+SPARSE(typical, "Its usual size, in words.")
+SPARSE(source, "Source of the formula.").check(check_words) END_FILE_RECORD;
 
 Value<std::vector<const Effect*>> declared_value() {
   using All = std::vector<const Effect*>;
   return {[](const Cursor& at) -> std::optional<All> {
-            if (!at.json().is_array()) {
-              at.expect("a list of declared effects");
-              return std::nullopt;
-            }
+            if (!at.json().is_array()) return at.expect("a list of declared effects");
             All declared;
-            for (std::size_t i = 0; i < at.json().size(); ++i) {
+            for (const auto i : each_index(at.json())) {
               const Cursor own = at.element(i);
-              const auto declaration = declaration_record().read(own);
+              const auto declaration = effect_record().read(own);
               if (!declaration || !own.clean()) continue;
               add_problems(own.pointer(), problems_of(*declaration), own.problems());
               if (!own.clean()) continue;
@@ -162,16 +148,16 @@ Value<std::vector<const Effect*>> declared_value() {
           },
           [](const All& declared) {
             return json_list(declared, [](const Effect* effect) {
-              return declaration_record().write(*declaration_of(*effect));
+              return effect_record().write(*declaration_of(*effect));
             });
           },
           {"a list of declared effects", [] {
-             return Json{{"type", "array"}, {"items", declaration_record().expected().schema()}};
+             return Json{{"type", "array"}, {"items", effect_record().expected().schema()}};
            }}};
 }
 
-void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
-  for (std::size_t i = 0; i < machine.declared.size(); ++i)
+void check_declared_on_bed(const Cursor& at, const Machine& machine) {
+  for (const auto i : each_index(machine.declared))
     add_problems(at.element(i).pointer(),
                  problems_on_bed(*declaration_of(*machine.declared[i]), machine), at.problems());
 }
@@ -190,13 +176,10 @@ const Effect* declared_in_document(const Cursor& at, std::string_view id) {
   return found != nullptr ? *found : nullptr;
 }
 
-Json effect_schema() { return declaration_record().schema(); }
-
 namespace {
 
 /// Adds the declared effect of a file to the machine.
-void declare(const Effect& effect, const std::string& json, model::Machine& machine,
-             Problems& problems) {
+void declare(const Effect& effect, const std::string& json, Machine& machine, Problems& problems) {
   const auto* known = find_where(machine.declared, having(&Effect::id, effect.id));
   // Declaring the same effect again has no effect.
   if (known != nullptr && *known == &effect) return;
@@ -222,17 +205,17 @@ void declare(const Effect& effect, const std::string& json, model::Machine& mach
 
 Declaration parse_effect(const std::string& text, const std::string& file) {
   Problems problems(file);
-  Declaration declaration = read_document(declaration_record(), text, problems);
+  Declaration declaration = read_document(effect_record(), text, problems);
   add_problems("", problems_of(declaration), problems, text);
   problems.throw_if_any();
   return declaration;
 }
 
 std::string write_effect(const Declaration& declaration) {
-  return write_document(declaration_record(), declaration);
+  return write_document(effect_record(), declaration);
 }
 
-void declare_effects(const std::vector<std::string>& paths, model::Machine& machine) {
+void declare_effects(const Words& paths, Machine& machine) {
   std::vector<InputProblem> all;
   for (const std::string& path : paths) {
     try {

@@ -24,6 +24,6 @@ std::string write_effect(const model::effects::Declaration& declaration);
 
 /// Reads the files and adds what they declare to the machine, once each; formulas must be finite on
 /// its bed and 0 at null. \throws InputError with every problem of every file.
-void declare_effects(const std::vector<std::string>& paths, model::Machine& machine);
+void declare_effects(const std::vector<std::string>& paths, Machine& machine);
 
 }  // namespace chaintrue::grid::files

@@ -13,7 +13,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 FileKind kind_of_csv(std::string_view text) {
-  const std::vector<std::string> header = csv_header(text);
+  const Words header = csv_header(text);
   const bool is_of_holes =
       !header.empty() && (header.front() == "hole" || header.front().starts_with("from"));
   return is_of_holes ? FileKind::holes : FileKind::grid;
@@ -63,7 +63,7 @@ Json headed(const Format& format) {
 bool is_json(std::string_view text) {
   text = without_byte_order_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return false;
+  if (first == npos) return false;
   // "[EMC]" is a section of an ini file, "[true]" is JSON that no reader accepts.
   const bool is_section =
       text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);
@@ -99,7 +99,7 @@ FileKind kind_of(const std::string& text, const std::string& file) {
 std::string expected_kinds(const std::vector<FileKind>& kinds) {
   const auto takes = [&](FileKind kind) { return contains(kinds, kind); };
   std::string words;
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
+  for (const auto k : each_index(kinds)) {
     // Both kinds of holes have one name.
     if (kinds[k] == FileKind::belt_holes && takes(FileKind::holes)) continue;
     const bool is_last = k + 1 == kinds.size();

@@ -16,7 +16,7 @@ bool is_fluidnc(const std::string& text) {
       values, [](const auto& value) { return value.first.starts_with("kinematics/WallPlotter/"); });
 }
 
-model::PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings) {
+PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings) {
   const std::string anchors = "kinematics/WallPlotter/";
   return {{settings.need(anchors + "left_anchor_x", kCoordinateMm),
            settings.need(anchors + "left_anchor_y", kCoordinateMm)},
@@ -35,12 +35,12 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   // The same as in model::problems_of, which is applied in any case.
   constexpr Range kTravel{"mm", 200.0, 20000.0};
   ReadMachine read;
-  model::Machine& machine = read.machine;
+  Machine& machine = read.machine;
   machine.name = name_without_folders(file);
   machine.motors = fluidnc_anchors(settings);
   machine.bed = {settings.need("axes/x/max_travel_mm", kTravel),
                  settings.need("axes/y/max_travel_mm", kTravel)};
-  machine.controller = {model::ControllerKind::fluidnc_wallplotter, {}};
+  machine.controller = {ControllerKind::fluidnc_wallplotter, {}};
   problems.throw_if_any();
   check_geometry(machine, problems);
   problems.throw_if_any();
@@ -48,7 +48,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
                 "FluidNC has no settings for the sled and chains. Assumed: a sled of {} kg, a "
                 "ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} kg/m, a frame that "
                 "leans {} degrees. Enter your values in the machine file",
-                machine.sled.mass_kg, std::get<model::Ring>(machine.attachment).radius_mm,
+                machine.sled.mass_kg, std::get<Ring>(machine.attachment).radius_mm,
                 machine.sprocket.teeth, machine.sprocket.pitch_mm, machine.chain.mass_kg_per_m,
                 machine.frame.tilt_from_vertical_deg);
   settings.warn_of_others("describes where the sled hangs");

@@ -101,7 +101,7 @@ Json* property_at(Json& schema, std::string_view place) {
   }
   if (!schema.contains("properties") || !schema["properties"].contains(key)) return nullptr;
   Json& property = schema["properties"][key];
-  return slash == std::string_view::npos ? &property : property_at(property, rest.substr(slash));
+  return slash == npos ? &property : property_at(property, rest.substr(slash));
 }
 
 /// Adds the model's ranges; the reader's own ranges only exclude meaningless numbers.
@@ -182,7 +182,7 @@ std::string range_words(const Json& schema) {
 }
 
 std::string one_of_words(const Json& names) {
-  std::vector<std::string> words;
+  Words words;
   for (const Json& name : names) {
     if (!name.is_null())
       words.push_back(
@@ -273,7 +273,7 @@ class Tables {
 
 }  // namespace
 
-std::vector<std::string> described_formats() {
+Words described_formats() {
   return mapped(kDescribed, [](const Described& d) { return name_of(*d.format); });
 }
 

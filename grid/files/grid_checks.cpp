@@ -24,7 +24,7 @@ constexpr double kLongestInInches = 250.0;
 
 /// The gradients of planes fitted to the lengths of the left and of the right chain, length per mm of
 /// x and of y; empty if fewer than three points have lengths or they do not span an area.
-std::optional<model::PerSide<Vector2d>> slopes_of(const std::vector<MeasuredPoint>& points) {
+std::optional<PerSide<Vector2d>> slopes_of(const std::vector<MeasuredPoint>& points) {
   std::vector<Eigen::Vector4d> rows;
   for (const MeasuredPoint& point : points) {
     if (point.lengths)
@@ -39,7 +39,7 @@ std::optional<model::PerSide<Vector2d>> slopes_of(const std::vector<MeasuredPoin
   constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
   const Matrix2d slope = spread.inverse() * products.topRightCorner<2, 2>();
-  return model::PerSide<Vector2d>{slope.col(0), slope.col(1)};
+  return PerSide<Vector2d>{slope.col(0), slope.col(1)};
 }
 
 /// The largest |x|, |y| and length of all points.
@@ -72,7 +72,7 @@ const char* unit_of(double factor) { return factor < kFewestInches ? "centimetre
 /// The largest distance of a mark from the line that fits all of them best.
 double width_across_best_line(const std::vector<MeasuredPoint>& points) {
   Matrix2Xd places(2, as_index(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (const auto i : each_index(points))
     places.col(as_index(i)) << points[i].mark.x_mm, points[i].mark.y_mm;
   places.colwise() -= Vector2d(places.rowwise().mean());
   const linear::SymmetricEigen spread(MatrixXd(places * places.transpose()));
@@ -86,7 +86,7 @@ struct GridChecks {
   Problems& problems;
 
   /// Reports another unit than mm; true if found. For grids without a machine.
-  bool check_unit(const std::optional<model::PerSide<Vector2d>>& slopes) const {
+  bool check_unit(const std::optional<PerSide<Vector2d>>& slopes) const {
     const Extent extent = extent_of(grid);
     if (extent.length > 0.0 && extent.length < kLongestInInches &&
         extent.coordinate < kLongestInInches) {
@@ -122,7 +122,7 @@ struct GridChecks {
 
   /// Lengths of a machine whose motors are above change with x in opposite ways and decrease towards
   /// the motors. True if x and y are exchanged, which is reported.
-  bool check_axes(const model::PerSide<Vector2d>& slopes) const {
+  bool check_axes(const PerSide<Vector2d>& slopes) const {
     constexpr double kClearly = 0.3;
     const auto& [left, right] = slopes;
     if (left.y() > kClearly && right.y() < -kClearly && left.x() < 0.0 && right.x() < 0.0) {
@@ -134,7 +134,7 @@ struct GridChecks {
     return false;
   }
 
-  void check_sides(const model::PerSide<Vector2d>& slopes) const {
+  void check_sides(const PerSide<Vector2d>& slopes) const {
     const auto& [left, right] = slopes;
     if (left.x() < 0.0 && right.x() > 0.0) {
       problems.explain(
@@ -161,7 +161,7 @@ struct GridChecks {
       half_width_mm = std::max(half_width_mm, std::abs(point.mark.x_mm));
       half_height_mm = std::max(half_height_mm, std::abs(point.mark.y_mm));
     }
-    const model::Bed& bed = grid.machine->bed;
+    const Bed& bed = grid.machine->bed;
     if (2.0 * half_width_mm * input_checks::kMmPerInch > bed.width_mm ||
         2.0 * half_height_mm * input_checks::kMmPerInch > bed.height_mm)
       return false;
@@ -214,8 +214,7 @@ void check_points_together(const MeasuredGrid& grid, std::size_t fewest_points,
                                               : fmt::format("Only {} points are", count),
                                  fewest_points, fewest_points - count));
   }
-  const bool has_commands =
-      any_of(grid.points, [](const MeasuredPoint& point) { return point.commanded.has_value(); });
+  const bool has_commands = any_of(grid.points, &MeasuredPoint::commanded);
   if (has_commands && !grid.machine) {
     problems.add(places.all, "commanded positions, but no machine", ProblemKind::missing,
                  "a machine with the controller that received the commands (\"machine\", "
@@ -240,7 +239,7 @@ namespace {
 bool is_finer_than_noise(const std::vector<EnteredPoint>& points) {
   constexpr double kPerMm = 10.0;
   return any_of(points, [](const EnteredPoint& entered) {
-    const double tenths = kPerMm * entered.point.lengths.value_or(model::ChainLengths{}).left_mm;
+    const double tenths = kPerMm * entered.point.lengths.value_or(ChainLengths{}).left_mm;
     return std::abs(tenths - std::round(tenths)) > 1e-6;  // rounding of a length in tenths
   });
 }
@@ -251,9 +250,9 @@ void count_copies_once(std::vector<EnteredPoint>& points, PointPlaces& places, P
   using Digits = std::array<double, 4>;
   if (!is_finer_than_noise(points)) return;
   std::map<Digits, std::size_t> first;
-  std::vector<std::size_t> kept;
+  Indices kept;
   std::string example;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     const auto& [mark, lengths, commanded, order] = points[i].point;
     if (lengths && !order && !points[i].is_spoilt) {
       const auto [at, is_new] =
@@ -297,13 +296,13 @@ double copies_by_rounding(const MeasuredGrid& grid) {
 }  // namespace
 
 void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
-  std::vector<std::string> copies;
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+  Words copies;
+  for (const auto i : each_index(grid.points)) {
     const MeasuredPoint& point = grid.points[i];
     if (!point.commanded || point.commanded->x_mm != point.mark.x_mm ||
         point.commanded->y_mm != point.mark.y_mm)
       continue;
-    copies.push_back(fmt::format("{}", point.order.value_or(static_cast<int>(i) + 1)));
+    copies.push_back(fmt::format("{}", point.order.value_or(as_int(i) + 1)));
   }
   // One in a hundred sound lists of such readings has more.
   const double by_rounding = copies_by_rounding(grid);

@@ -32,12 +32,11 @@ auto noise_record() {
            kNoiseDof);
 }
 
-auto sheet_uncertainty_record() {
-  RECORD(SheetUncertainty, "the sheet's placement")
-  REQUIRED(shift_mm, "Uncertainty of the sheet's position, 1 sigma on each axis.",
-           {"mm", 0.0, 1000.0})
-  REQUIRED(rotation_mrad, "Uncertainty of the sheet's rotation, 1 sigma.", {"mrad", 0.0, 500.0});
-}
+RECORD_OF(SheetUncertainty, "the sheet's placement")
+REQUIRED(shift_mm, "Uncertainty of the sheet's position, 1 sigma on each axis.",
+         {"mm", 0.0, 1000.0})
+REQUIRED(rotation_mrad, "Uncertainty of the sheet's rotation, 1 sigma.", {"mrad", 0.0, 500.0})
+END_RECORD;
 
 /// `stands`: which of left_mm, right_mm, commanded_x_mm and commanded_y_mm a point has.
 void check_parts(const std::array<bool, 4>& stands, const std::string& place, Problems& problems) {
@@ -63,15 +62,14 @@ const Record<MeasuredPoint>& point_record() {
   KEPT_RECORD(MeasuredPoint, "a point")
   FIELD(place, &Own::mark, "x of the tool. Null in a list that is not filled in yet.",
         "y of the tool, up. Null in a list that is not filled in yet.", kCoordinateMm)
-  FIELD(optional, "left_mm", "Length of the left chain, as read or as commanded.",
-        path(&Own::lengths, &model::ChainLengths::left_mm), kLengthMm)
-  FIELD(optional, "right_mm", "Length of the right chain, as read or as commanded.",
-        path(&Own::lengths, &model::ChainLengths::right_mm), kLengthMm)
-  FIELD(optional, "commanded_x_mm",
-        "Commanded x; the chain lengths are then those of the controller's kinematics.",
-        path(&Own::commanded, &model::BedPoint::x_mm), kCoordinateMm)
-  FIELD(optional, "commanded_y_mm", "Commanded y, up.",
-        path(&Own::commanded, &model::BedPoint::y_mm), kCoordinateMm)
+  NESTED(optional, "left_mm", lengths, left_mm,
+         "Length of the left chain, as read or as commanded.", kLengthMm)
+  NESTED(optional, "right_mm", lengths, right_mm,
+         "Length of the right chain, as read or as commanded.", kLengthMm)
+  NESTED(optional, "commanded_x_mm", commanded, x_mm,
+         "Commanded x; the chain lengths are then those of the controller's kinematics.",
+         kCoordinateMm)
+  NESTED(optional, "commanded_y_mm", commanded, y_mm, "Commanded y, up.", kCoordinateMm)
   OPTIONAL(order, "Number of the visit. Either all points have one, all different, or none has.",
            integer(0, kLargestOrder))
       .check([](const Cursor& at, Own&) {
@@ -105,8 +103,8 @@ bool is_blank(const Cursor& at) {
 
 /// Like list(object(point_record())), and records which points were wrong and which left blank.
 void read_points(const Cursor& at, StatedGrid& grid) {
-  if (!at.json().is_array()) return at.expect("a list of points");
-  for (std::size_t i = 0; i < at.json().size(); ++i) {
+  if (!at.json().is_array()) return (void)at.expect("a list of points");
+  for (const auto i : each_index(at.json())) {
     const std::size_t problems_before = at.problems().list().size();
     EnteredPoint& entered = grid.lines.emplace_back();
     entered.is_blank = is_blank(at.element(i));
@@ -119,36 +117,36 @@ void read_points(const Cursor& at, StatedGrid& grid) {
   }
 }
 
-const Record<StatedGrid>& grid_record() {
-  KEPT_RECORD(StatedGrid, "a grid", kGridFormat)
-  OPTIONAL(name, "Name of the session in messages and pages.")
-  OPTIONAL(machine, "The machine with its settings in force; or machine_file.", machine_record())
-  SPARSE(machine_file, "Path of the machine file, from this file.")
-  OPTIONAL(noise,
-           "Noise of the readings. Missing values are estimated from repeated visits, or "
-           "assumed; none is taken below the rounding of the readings.",
-           noise_record())
-  OPTIONAL(sheet, "How accurately the marks' sheet was placed by hand; absent: exactly.",
-           sheet_uncertainty_record())
-  SPARSE(readings, "What was measured besides the points.", reading_record())
-  FIELD(custom, "points", "The measured points.", true, {"a list of points", points_schema},
-        read_points,
-        [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.points); })
-      .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
-      .check([](const Cursor& at, StatedGrid& grid) {
-        if (grid.machine && !grid.machine_file.empty()) {
-          at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
-        }
-      });
-  return record;
-}
+}  // namespace
+
+FILE_RECORD(grid, StatedGrid, "a grid", kGridFormat)
+OPTIONAL(name, "Name of the session in messages and pages.")
+OPTIONAL(machine, "The machine with its settings in force; or machine_file.", machine_record())
+SPARSE(machine_file, "Path of the machine file, from this file.")
+OPTIONAL(noise,
+         "Noise of the readings. Missing values are estimated from repeated visits, or "
+         "assumed; none is taken below the rounding of the readings.",
+         noise_record())
+OPTIONAL(sheet, "How accurately the marks' sheet was placed by hand; absent: exactly.")
+SPARSE(readings, "What was measured besides the points.", reading_record())
+FIELD(custom, "points", "The measured points.", true, {"a list of points", points_schema},
+      read_points,
+      [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.points); })
+    .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+    .check([](const Cursor& at, StatedGrid& grid) {
+      if (grid.machine && !grid.machine_file.empty()) {
+        at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+      }
+    }) END_FILE_RECORD;
+
+namespace {
 
 /// The common part of JSON and CSV, once the fields are read.
 ReadGrid finish(StatedGrid grid, PointPlaces places, const MeasuredOptions& options,
                 Problems& problems) {
-  std::vector<std::string> blanks;
+  Words blanks;
   for (const EnteredPoint& entered : grid.lines) {
-    const int number = entered.point.order.value_or(static_cast<int>(blanks.size()) + 1);
+    const int number = entered.point.order.value_or(as_int(blanks.size()) + 1);
     blanks.push_back(entered.is_blank ? fmt::format("{}", number) : "");
   }
   keep_only(filled_in(blanks, "points", "the readings, written into the empty columns", places.all,
@@ -163,8 +161,7 @@ ReadGrid finish(StatedGrid grid, PointPlaces places, const MeasuredOptions& opti
   }
   const std::size_t problems_before = problems.list().size();
   check_orders(orders, places.of, problems);
-  const bool points_are_whole =
-      none_of(orders, [](const StatedOrder& own) { return own.is_spoilt; });
+  const bool points_are_whole = none_of(orders, &StatedOrder::is_spoilt);
   if (points_are_whole && problems.list().size() == problems_before)
     check_points_together(grid, options.few ? 1 : kFewestPoints, places, problems);
   problems.throw_if_any();
@@ -201,7 +198,7 @@ ReadGrid parse_csv_grid(const std::string& text, const MeasuredOptions& options,
                         Problems& problems) {
   constexpr std::size_t kOrder = 4;
   // Lengths are required unless the header has commands in their place.
-  const std::vector<std::string> header = csv_header(text);
+  const Words header = csv_header(text);
   const bool commanded =
       any_of(header, [](const std::string& name) { return name.rfind("commanded_", 0) == 0; });
   const double unit = options.inches ? input_checks::kMmPerInch : 1.0;
@@ -271,7 +268,5 @@ std::string write_grid_sheet(const MeasuredGrid& plan) {
   }
   return print_json(json);
 }
-
-Json grid_schema() { return grid_record().schema(); }
 
 }  // namespace chaintrue::grid::files

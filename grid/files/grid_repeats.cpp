@@ -21,7 +21,7 @@ constexpr std::size_t kMostWarnings = 20;
 /// The residual of a reading from the machine model's prediction for its position.
 struct Compared {
   std::size_t index;
-  model::MarkPoint mark;
+  MarkPoint mark;
   Vector2d off_mm;
 };
 
@@ -48,17 +48,16 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
   Comparison lengths{
       {"left", "right"}, std::hypot(noise.length_mm, noise.position_mm), kWithoutModel, {}};
   std::unique_ptr<const model::Kinematics> kinematics;
-  if (grid.machine && model::problems_of(*grid.machine).empty()) {
-    kinematics =
-        model::make_kinematics(model::equilibrium_parameters(*grid.machine), model::Model::elastic);
+  if (grid.machine && problems_of(*grid.machine).empty()) {
+    kinematics = make_kinematics(equilibrium_parameters(*grid.machine), Model::elastic);
     lengths.change_per_mm = share_unknown_to_model(grid);
   }
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+  for (const auto i : each_index(grid.points)) {
     const MeasuredPoint& point = grid.points[i];
     if (!point.lengths) continue;
     Compared reading{i, point.mark, {point.lengths->left_mm, point.lengths->right_mm}};
     if (kinematics) {
-      const auto pose = kinematics->inverse(model::identity_placement(point.mark));
+      const auto pose = kinematics->inverse(identity_placement(point.mark));
       if (!pose) continue;
       reading.off_mm -= Vector2d(pose->lengths.left_mm, pose->lengths.right_mm);
     }
@@ -71,7 +70,7 @@ Comparison compare_commands(const MeasuredGrid& grid, const StatedNoise& noise) 
   // A machine's error in x and y changes by a few mm over the bed: 0.05 is many times that.
   constexpr double kErrorPerMm = 0.05;
   Comparison errors{{"x", "y"}, noise.position_mm, kErrorPerMm, {}};
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+  for (const auto i : each_index(grid.points)) {
     const MeasuredPoint& point = grid.points[i];
     if (!point.commanded) continue;
     errors.readings.push_back(
@@ -115,7 +114,7 @@ void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& p
   stable_sort(readings,
               [](const Compared& a, const Compared& b) { return a.mark.x_mm < b.mark.x_mm; });
   const std::size_t warnings_before = problems.warnings().size();
-  for (std::size_t i = 0; i < readings.size(); ++i) {
+  for (const auto i : each_index(readings)) {
     for (std::size_t j = i + 1; j < readings.size(); ++j) {
       if (readings[j].mark.x_mm - readings[i].mark.x_mm > kRepeatDistanceMm) break;
       if (problems.warnings().size() - warnings_before == kMostWarnings) {

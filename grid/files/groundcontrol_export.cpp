@@ -16,8 +16,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Machine;
-
 /// Four decimals, without the zeros at their end.
 std::string to_type(double value) {
   std::string text = fmt::format("{:.4f}", value);
@@ -69,7 +67,7 @@ class Lines {
 };
 
 /// The pitch of a chain that its tolerance states.
-bool is_tolerance(const model::AppliedEffect& effect, const ControllerSettings& settings) {
+bool is_tolerance(const AppliedEffect& effect, const ControllerSettings& settings) {
   const auto size = effect.parameters.find("elongation");
   if (effect.effect != "chain_pitch_error" || effect.side == "both" ||
       size == effect.parameters.end())
@@ -90,18 +88,18 @@ ControllerSettings measures_as_settings(const Machine& machine) {
   s.motor_spacing_mm = std::hypot(dx_mm, dy_mm);
   s.motor_offset_y_mm =
       0.5 * (machine.motors.left.y_mm + machine.motors.right.y_mm) - 0.5 * machine.bed.height_mm;
-  if (const auto* ring = std::get_if<model::Ring>(&machine.attachment)) {
+  if (const auto* ring = std::get_if<Ring>(&machine.attachment)) {
     s.rotation_radius_mm = ring->radius_mm;
     // A parabola in place of the catenary; the firmware uses it with a ring only.
     if (!is_imported(machine.controller.settings))
-      s.chain_sag_correction = model::equilibrium_parameters(machine).sag_correction;
+      s.chain_sag_correction = equilibrium_parameters(machine).sag_correction;
   } else {
     const auto& brackets = std::get<model::Brackets>(machine.attachment);
     s.sled_width_mm = brackets.spacing_mm;
     s.sled_height_mm = brackets.height_mm;
     s.sled_cg_mm = brackets.cg_below_bit_mm;
   }
-  if (machine.controller.kind == model::ControllerKind::holey) {
+  if (machine.controller.kind == ControllerKind::holey) {
     s.top_beam_tilt_deg = std::atan2(dy_mm, dx_mm) * 180.0 / std::numbers::pi;
     s.chain_elongation_per_n = machine.chain.compliance_per_n;
   }
@@ -110,7 +108,7 @@ ControllerSettings measures_as_settings(const Machine& machine) {
   s.left_chain_tolerance_percent = s.left_chain_tolerance_percent.value_or(0.0);
   s.right_chain_tolerance_percent = s.right_chain_tolerance_percent.value_or(0.0);
   if (s.sled_weight_n) s.sled_weight_n = machine.sled.mass_kg * kGroundcontrolGravity_m_per_s2;
-  s.chain_over_sprocket_top = machine.feed == model::Feed::over_top;
+  s.chain_over_sprocket_top = machine.feed == Feed::over_top;
   return s;
 }
 
@@ -149,7 +147,7 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
         lines.number(own->key, *value, now.*own->setting, by);
     }
   };
-  const bool has_ring = std::holds_alternative<model::Ring>(machine.attachment);
+  const bool has_ring = std::holds_alternative<Ring>(machine.attachment);
   lines.section("Maslow Settings");
   numbers({"bedwidth", "bedheight", "motorspacingx", "motoroffsety"});
   if (!has_ring) numbers({"sledwidth", "sledheight", "sledcg"});
@@ -166,10 +164,9 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
       lines.changes("chainelongationfactor", fmt::format("{}", *now.chain_elongation_per_n), typed,
                     by);
   }
-  lines.word("chainoversprocket",
-             settings.chain_over_sprocket_top.value_or(machine.feed == model::Feed::over_top)
-                 ? "Top"
-                 : "Bottom");
+  lines.word(
+      "chainoversprocket",
+      settings.chain_over_sprocket_top.value_or(machine.feed == Feed::over_top) ? "Top" : "Bottom");
   return out;
 }
 

@@ -20,9 +20,6 @@ namespace chaintrue::grid::files {
 
 namespace {
 
-using model::Feed;
-using model::Machine;
-
 constexpr double kDegreeRad = std::numbers::pi / 180.0;
 
 /// The unit of a file in which the router is too small for mm.
@@ -54,7 +51,7 @@ void attach_sled(const ControllerSettings& numbers, bool has_brackets, Machine& 
     machine.attachment = model::Brackets{
         numbers.sled_width_mm.value(), numbers.sled_height_mm.value(), numbers.sled_cg_mm.value()};
   } else {
-    machine.attachment = model::Ring{numbers.rotation_radius_mm.value()};
+    machine.attachment = Ring{numbers.rotation_radius_mm.value()};
   }
 }
 
@@ -94,7 +91,7 @@ double more_by_encoder(SettingReader& settings, Problems& problems) {
 /// A tolerance other than 0 is the pitch that the owner measured for this chain.
 void state_pitch(const ControllerSettings& numbers, Tolerances tolerances, double more_by_encoder,
                  Machine& machine, Problems& problems) {
-  std::vector<std::string> links;
+  Words links;
   for (const auto& [stated, side] : {std::pair(numbers.left_chain_tolerance_percent, "left"),
                                      std::pair(numbers.right_chain_tolerance_percent, "right")}) {
     const double percent = tolerances == Tolerances::are_pitch ? stated.value_or(0.0) : 0.0;
@@ -109,7 +106,7 @@ void state_pitch(const ControllerSettings& numbers, Tolerances tolerances, doubl
                                 percent > 0.0 ? "longer" : "shorter", side));
   }
   if (links.empty()) return;
-  const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
+  const Effect* effect = model::effects::find_effect("chain_pitch_error");
   problems.warn("", "chain tolerance: links {} than new, each value within {:g} % (/effects)",
                 fmt::join(links, " and "), 100.0 * effect->parameters.front().prior_sigma);
 }
@@ -152,7 +149,7 @@ class OldReleases {
       : settings_(settings), problems_(problems) {}
 
   /// The first of `words` if the file states none.
-  std::string word(const char* key, const std::vector<std::string>& words) {
+  std::string word(const char* key, const Words& words) {
     if (settings_.look(key) != nullptr)
       return settings_.find_word(key, words).value_or(words.front());
     assumed_.push_back(fmt::format("{} {}", key, words.front()));
@@ -182,7 +179,7 @@ class OldReleases {
  private:
   SettingReader& settings_;
   Problems& problems_;
-  std::vector<std::string> assumed_;
+  Words assumed_;
 };
 
 ControllerSettings read_numbers(SettingReader& settings, bool has_brackets, OldReleases& old) {
@@ -204,7 +201,7 @@ ControllerSettings read_numbers(SettingReader& settings, bool has_brackets, OldR
 void check_sag(SettingReader& settings, const Machine& machine, Problems& problems) {
   constexpr double kFarFrom = 2.0;
   const double set = machine.controller.settings.chain_sag_correction.value_or(0.0);
-  const model::EquilibriumParameters hangs = model::equilibrium_parameters(machine);
+  const model::EquilibriumParameters hangs = equilibrium_parameters(machine);
   const double own =
       model::closed_form_sag_correction(hangs.chain_weight_n_per_mm, hangs.sled_weight_n);
   if (set == 0.0 || (set < kFarFrom * own && kFarFrom * set > own)) return;
@@ -235,7 +232,7 @@ Machine machine_of(const ControllerSettings& numbers, bool has_brackets, bool ov
   machine.sprocket.teeth = static_cast<int>(numbers.gear_teeth.value());
   machine.feed = over_top ? Feed::over_top : Feed::off_bottom;
   attach_sled(numbers, has_brackets, machine);
-  machine.controller.kind = model::ControllerKind::maslow_classic;
+  machine.controller.kind = ControllerKind::maslow_classic;
   machine.controller.settings = numbers;
   machine.controller.settings.chain_over_sprocket_top = over_top;
   return machine;

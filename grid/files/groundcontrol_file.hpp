@@ -56,7 +56,7 @@ ReadMachine parse_groundcontrol(const std::string& text, const std::string& file
 /// The machine's own measures as settings: motors, ring or sled, sprocket, the sag of the chain's weight where
 /// no import states one; tilt and stretch of the holey firmware alone. They do not include its
 /// effects: map/settings_to_type.hpp finds the numbers for the whole machine.
-model::ControllerSettings measures_as_settings(const model::Machine& machine);
+model::ControllerSettings measures_as_settings(const Machine& machine);
 
 struct GroundcontrolText {
   /// `key = value` under GroundControl's sections: changed settings to 0.0001 of their unit, the
@@ -67,15 +67,15 @@ struct GroundcontrolText {
 };
 
 /// For those measures. A setting of the controller that agrees with the machine is unchanged.
-GroundcontrolText write_groundcontrol(const model::Machine& machine);
+GroundcontrolText write_groundcontrol(const Machine& machine);
 
 /// Whether anything was measured since the import: false if the machine is what an import of its
 /// settings gives.
-bool says_more_than_its_settings(const model::Machine& machine);
+bool says_more_than_its_settings(const Machine& machine);
 
 /// The machine's controller with these settings. `by` is the source of the change: "the 28 points
 /// of map.json".
-GroundcontrolText write_groundcontrol_settings(const model::Machine& machine,
+GroundcontrolText write_groundcontrol_settings(const Machine& machine,
                                                const model::ControllerSettings& settings,
                                                std::string_view by);
 

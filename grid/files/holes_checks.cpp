@@ -18,11 +18,11 @@ namespace chaintrue::grid::files {
 namespace {
 
 std::optional<std::size_t> hole_of(const std::string& word, const std::vector<Hole>& holes) {
-  for (std::size_t i = 0; i < holes.size(); ++i) {
+  for (const auto i : each_index(holes)) {
     if (holes[i].name == word) return i;
   }
   // A number is the index of a hole if no hole has it as its name.
-  const auto number = whole_number_of(word, 0, static_cast<int>(holes.size()) - 1);
+  const auto number = whole_number_of(word, 0, as_int(holes.size()) - 1);
   return number ? std::optional(as_size(*number)) : std::nullopt;
 }
 
@@ -39,7 +39,7 @@ std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
     if (!distance.edge) measured.insert(pair_of(distance));
   }
   std::vector<HoleDistance> others;
-  for (std::size_t a = 0; a < set.holes.size(); ++a) {
+  for (const auto a : each_index(set.holes)) {
     for (std::size_t b = a + 1; b < set.holes.size(); ++b) {
       if (measured.count({a, b}) == 0) others.push_back({.from = a, .to = b});
     }
@@ -47,7 +47,7 @@ std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
   stable_sort(others, [&](const auto& a, const auto& b) {
     return commanded_mm(set, a) > commanded_mm(set, b);
   });
-  std::vector<std::string> words;
+  Words words;
   for (std::size_t i = 0; i < others.size() && i < count; ++i) {
     words.push_back(words_of(set, others[i]));
   }
@@ -72,7 +72,7 @@ struct HolesChecks {
     // in inches, 1 / 20 to 1 / 10 in centimetres. A set in mm within an eighth of it is inconclusive.
     constexpr double kOfInches = 0.045;
     constexpr double kOfCentimetres = 0.125;
-    const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : model::Bed{}).width_mm;
+    const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : Bed{}).width_mm;
     const double share = farthest_mm / half_width_mm;
     if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
     problems.explain(
@@ -100,7 +100,7 @@ struct HolesChecks {
   /// Reports two holes so near that the direction from one to the other is undetermined.
   void check_apart() const {
     constexpr double kLeastMm = 20.0;
-    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+    for (const auto i : each_index(set.distances)) {
       const HoleDistance& distance = set.distances[i];
       if (distance.edge || commanded_mm(set, distance) >= kLeastMm) continue;
       problems.add(places.distance(i, ""),
@@ -117,7 +117,7 @@ struct HolesChecks {
   /// others, within the tape's error.
   void check_triangles(const std::vector<input_checks::RowFinding>& asked) const {
     std::map<Pair, std::size_t> first;
-    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+    for (const auto i : each_index(set.distances)) {
       if (!set.distances[i].edge) first.emplace(pair_of(set.distances[i]), i);
     }
     for (const auto& [ab, index_ab] : first) {
@@ -219,8 +219,8 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
   // A tape read to the millimetre equals the command now and then; read to the hundredth, or on
   // most of the lines, it does not.
   constexpr double kSameMm = 0.005;
-  std::vector<std::string> exact;
-  std::vector<std::string> rounded;
+  Words exact;
+  Words rounded;
   for (const HoleDistance& distance : set.distances) {
     if (distance.edge) continue;
     const double difference_mm = std::abs(distance.distance_mm - commanded_mm(set, distance));
@@ -231,7 +231,7 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
       rounded.push_back(words_of(set, distance));
   }
   const bool most = 2 * rounded.size() > set.distances.size();
-  const std::vector<std::string>& copies = most ? rounded : exact;
+  const Words& copies = most ? rounded : exact;
   if (copies.empty()) return;
   problems.warn(places.distances,
                 "{} read exactly as commanded. Were they measured? If not, leave "
@@ -241,7 +241,7 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
 
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems) {
   std::map<std::string, std::size_t> first;
-  for (std::size_t i = 0; i < holes.size(); ++i) {
+  for (const auto i : each_index(holes)) {
     if (holes[i].name.empty()) holes[i].name = fmt::format("{}", i);
     const std::string& name = holes[i].name;
     if (edge_of(name)) {
@@ -260,7 +260,7 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
                                              const std::vector<Hole>& holes,
                                              const HolesPlaces& places, Problems& problems) {
   std::vector<HoleDistance> distances;
-  for (std::size_t i = 0; i < stated.size(); ++i) {
+  for (const auto i : each_index(stated)) {
     const StatedDistance& from = stated[i];
     HoleDistance distance;
     distance.distance_mm = from.distance_mm.value_or(0.0);

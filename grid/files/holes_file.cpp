@@ -15,23 +15,21 @@
 namespace chaintrue::grid::files {
 namespace {
 
-auto tape_record() {
-  RECORD(Tape, "the tape")
-  OPTIONAL(sigma_mm,
-           "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
-           kTapeSigmaMm)
-  NAMED(optional, "hook_offset_mm", tape_zero_offset_mm,
-        "Amount by which each reading exceeds the distance.", kTapeZeroOffsetMm)
-  NAMED(optional, "hook_sigma_mm", tape_zero_offset_sigma_mm,
-        "Uncertainty of the hook offset, 1 sigma; default 3 mm.", kHoleSigmaMm);
-}
+RECORD_OF(Tape, "the tape")
+OPTIONAL(sigma_mm,
+         "Noise of a tape reading, 1 sigma; not taken below the rounding of the readings.",
+         kTapeSigmaMm)
+NAMED(optional, "hook_offset_mm", tape_zero_offset_mm,
+      "Amount by which each reading exceeds the distance.", kTapeZeroOffsetMm)
+NAMED(optional, "hook_sigma_mm", tape_zero_offset_sigma_mm,
+      "Uncertainty of the hook offset, 1 sigma; default 3 mm.", kHoleSigmaMm)
+END_RECORD;
 
-auto sheet_record() {
-  RECORD(SheetSize, "the sheet")
-  OPTIONAL(width_mm, "Width of the sheet, for distances to its edges.", {"mm", 100.0, 20000.0})
-  OPTIONAL(height_mm, "Height of the sheet.", {"mm", 100.0, 20000.0})
-  OPTIONAL(size_sigma_mm, "Uncertainty of its size, 1 sigma.", {"mm", 0.0, 100.0});
-}
+RECORD_OF(SheetSize, "the sheet")
+OPTIONAL(width_mm, "Width of the sheet, for distances to its edges.", {"mm", 100.0, 20000.0})
+OPTIONAL(height_mm, "Height of the sheet.", {"mm", 100.0, 20000.0})
+OPTIONAL(size_sigma_mm, "Uncertainty of its size, 1 sigma.", {"mm", 0.0, 100.0})
+END_RECORD;
 
 Record<Hole> hole_record() {
   RECORD(Hole, "a hole")
@@ -54,15 +52,13 @@ Value<std::string> hole_word() {
            }}};
 }
 
-auto distance_record() {
-  RECORD(StatedDistance, "a distance")
-  REQUIRED(from, "A hole's name or number.", hole_word())
-  REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.", hole_word())
-  REQUIRED(distance_mm, "The tape reading between the holes' centres. Null if not measured yet.",
-           kTapeDistance)
-  OPTIONAL(sigma_mm, "Noise of this reading, if it differs from the tape's.", kTapeSigmaMm)
-      .check([](const Cursor& at, StatedDistance& own) { own.is_spoilt = !at.clean(); });
-}
+RECORD_OF(StatedDistance, "a distance")
+REQUIRED(from, "A hole's name or number.", hole_word())
+REQUIRED(to, "A hole's name or number, or an edge: left, right, top, bottom.", hole_word())
+REQUIRED(distance_mm, "The tape reading between the holes' centres. Null if not measured yet.",
+         kTapeDistance)
+OPTIONAL(sigma_mm, "Noise of this reading, if it differs from the tape's.", kTapeSigmaMm)
+    .check([](const Cursor& at, StatedDistance& own) { own.is_spoilt = !at.clean(); }) END_RECORD;
 
 /// A machine with anchors hangs on belts.
 void read_stated_machine(const Cursor& at, StatedHoles& stated) {
@@ -82,44 +78,44 @@ Json written_stated_machine(const StatedHoles& stated) {
   return stated.machine ? machine_record().write(*stated.machine) : kLeftOut;
 }
 
-const Record<StatedHoles>& holes_record() {
-  KEPT_RECORD(StatedHoles, "a set of holes", kHolesFormat)
-  OPTIONAL(name, "Name of the set.")
-  FIELD(custom, "machine", "The machine with its settings in force; or machine_file.", false,
-        {machine_record().expected().words + ", or one with four belts",
-         [] {
-           return Json{
-               {"anyOf",
-                {machine_record().expected().schema(), belt_machine_record().expected().schema()}}};
-         }},
-        read_stated_machine, written_stated_machine)
-  SPARSE(machine_file, "Path of the machine file, from this file.")
-  OPTIONAL(tape, "Noise and hook offset of the tape.", tape_record())
-  OPTIONAL(hole_sigma_mm,
-           "Distance of a hole from the position that follows from its chains, 1 sigma on "
-           "each axis.",
-           kHoleSigmaMm)
-  OPTIONAL(noise_dof, "Degrees of freedom with which these are known.", kNoiseDof)
-  OPTIONAL(sheet, "Size of the sheet, for distances to its edges.", sheet_record())
-  SPARSE(readings, "What was measured besides the distances.", reading_record())
-  REQUIRED(holes, "The holes as commanded.", hole_record())
-  NAMED(required, "distances", lines, "The distances between them, and to edges.",
-        distance_record())
-      .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
-      .check([](const Cursor& at, StatedHoles& stated) {
-        stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
-                                     at.child("tape").has("hook_offset_mm");
-        if ((stated.machine || stated.belt_machine) && !stated.machine_file.empty()) {
-          at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
-        }
-      });
-  return record;
-}
+}  // namespace
+
+FILE_RECORD(holes, StatedHoles, "a set of holes", kHolesFormat)
+OPTIONAL(name, "Name of the set.")
+FIELD(custom, "machine", "The machine with its settings in force; or machine_file.", false,
+      {machine_record().expected().words + ", or one with four belts",
+       [] {
+         return Json{
+             {"anyOf",
+              {machine_record().expected().schema(), belt_machine_record().expected().schema()}}};
+       }},
+      read_stated_machine, written_stated_machine)
+SPARSE(machine_file, "Path of the machine file, from this file.")
+OPTIONAL(tape, "Noise and hook offset of the tape.")
+OPTIONAL(hole_sigma_mm,
+         "Distance of a hole from the position that follows from its chains, 1 sigma on "
+         "each axis.",
+         kHoleSigmaMm)
+OPTIONAL(noise_dof, "Degrees of freedom with which these are known.", kNoiseDof)
+OPTIONAL(sheet, "Size of the sheet, for distances to its edges.")
+SPARSE(readings, "What was measured besides the distances.", reading_record())
+REQUIRED(holes, "The holes as commanded.", hole_record())
+NAMED(required, "distances", lines, "The distances between them, and to edges.")
+    .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
+    .check([](const Cursor& at, StatedHoles& stated) {
+      stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
+                                   at.child("tape").has("hook_offset_mm");
+      if ((stated.machine || stated.belt_machine) && !stated.machine_file.empty()) {
+        at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+      }
+    }) END_FILE_RECORD;
+
+namespace {
 
 /// The common part of JSON and CSV, once the fields are read.
 ReadHoles finish(StatedHoles set, HolesPlaces places, const MeasuredOptions& options,
                  Problems& problems) {
-  std::vector<std::string> blanks;
+  Words blanks;
   for (const StatedDistance& line : set.lines) {
     const bool is_blank = !line.distance_mm && !line.is_spoilt;
     blanks.push_back(is_blank ? fmt::format("{}-{}", line.from, line.to) : "");
@@ -144,7 +140,7 @@ ReadHoles finish(StatedHoles set, HolesPlaces places, const MeasuredOptions& opt
   }
   problems.throw_if_any();
   warn_of_copies(set, places, problems);
-  std::optional<model::BeltMachine> belt_machine = std::move(set.belt_machine);
+  std::optional<BeltMachine> belt_machine = std::move(set.belt_machine);
   return {std::move(set), std::move(belt_machine), problems.warnings()};
 }
 
@@ -190,7 +186,7 @@ StatedHoles stated_holes(const MeasuredHoles& set) {
 
 }  // namespace
 
-std::string write_holes(const MeasuredHoles& set, const std::optional<model::BeltMachine>& belts) {
+std::string write_holes(const MeasuredHoles& set, const std::optional<BeltMachine>& belts) {
   StatedHoles stated = stated_holes(set);
   stated.belt_machine = belts;
   return write_document(holes_record(), stated);
@@ -204,7 +200,5 @@ std::string write_holes_sheet(const MeasuredHoles& plan) {
   json["tape"].erase("hook_offset_mm");
   return print_json(json);
 }
-
-Json holes_schema() { return holes_record().schema(); }
 
 }  // namespace chaintrue::grid::files

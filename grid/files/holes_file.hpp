@@ -46,7 +46,7 @@ namespace chaintrue::grid::files {
 struct ReadHoles {
   MeasuredHoles holes;
   /// For a file whose machine hangs on four belts; the holes then have no machine of chains.
-  std::optional<model::BeltMachine> belt_machine = std::nullopt;
+  std::optional<BeltMachine> belt_machine = std::nullopt;
   std::vector<Warning> warnings;
 };
 
@@ -57,7 +57,7 @@ ReadHoles parse_holes(const std::string& text, const std::string& file,
                       const MeasuredOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 std::string write_holes(const MeasuredHoles& holes,
-                        const std::optional<model::BeltMachine>& belts = std::nullopt);
+                        const std::optional<BeltMachine>& belts = std::nullopt);
 /// A sheet to fill in, in the same format: null for every distance.
 std::string write_holes_sheet(const MeasuredHoles& plan);
 

@@ -59,7 +59,7 @@ void check_holes_together(const MeasuredHoles& set, std::size_t fewest_distances
 inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
 
 struct StatedHoles : MeasuredHoles {
-  std::optional<model::BeltMachine> belt_machine;  ///< instead of the other
+  std::optional<BeltMachine> belt_machine;  ///< instead of the other
   std::string machine_file;
   /// The tape's zero offset is stated, even as 0.
   bool tape_zero_is_stated = false;

@@ -61,7 +61,7 @@ std::vector<CsvRow> filled_rows(std::vector<CsvRow> rows) {
 /// The hole at these coordinates, given its first cell. If there is one already, its name is used.
 std::string hole_at(std::optional<double> x_mm, std::optional<double> y_mm, const CsvCell& cell,
                     std::vector<Hole>& holes, std::vector<CsvCell>& cells) {
-  const model::BedPoint at{x_mm.value_or(0.0), y_mm.value_or(0.0)};
+  const BedPoint at{x_mm.value_or(0.0), y_mm.value_or(0.0)};
   const auto* known = find_where(holes, [&](const Hole& hole) {
     return hole.commanded.x_mm == at.x_mm && hole.commanded.y_mm == at.y_mm;
   });

@@ -6,19 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::files {
-namespace {
-
-std::string all_messages(const std::vector<InputProblem>& problems) {
-  std::string text;
-  for (const InputProblem& problem : problems) {
-    if (!text.empty()) text += '\n';
-    text += problem.message();
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string InputProblem::message() const {
   const std::string where = place.empty() ? file : fmt::format("{}: {}", file, place);
@@ -37,7 +27,9 @@ std::string Warning::message() const {
 }
 
 InputError::InputError(std::vector<InputProblem> problems)
-    : std::runtime_error(all_messages(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(
+          fmt::format("{}", fmt::join(mapped(problems, &InputProblem::message), "\n"))),
+      problems_(std::move(problems)) {}
 
 void refuse(std::string file, std::string place, std::string found, std::string expected,
             ProblemKind kind) {

@@ -107,13 +107,13 @@ Json RecordTable::schema() const {
   return schema;
 }
 
-std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) const {
-  std::vector<std::string> probably_meant;
-  const std::vector<std::string> known = keys();
+Words RecordTable::report_unknown_keys(const Cursor& at) const {
+  Words probably_meant;
+  const Words known = keys();
   for (const auto& [key, value] : at.json().items()) {
     const bool head = format_ != nullptr && (key == "file_type" || key == "format_version");
     if (head || key == "comment" || contains(known, key)) continue;
-    std::vector<std::string> free = known;
+    Words free = known;
     std::erase_if(free, [&](const std::string& own) { return at.has(own); });
     std::string expected = fmt::format("a key of {} ({})", noun_, joined(known));
     if (const std::string meant = nearest(key, free); !meant.empty()) {
@@ -125,13 +125,13 @@ std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) cons
   return probably_meant;
 }
 
-std::vector<std::string> RecordTable::keys() const { return mapped(fields_, &Field::key); }
+Words RecordTable::keys() const { return mapped(fields_, &Field::key); }
 
 bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root,
                               void (*reset)(void*)) const {
   if (!open(at, is_root)) return false;
   if (reset != nullptr) reset(object);
-  const std::vector<std::string> probably_meant = report_unknown_keys(at);
+  const Words probably_meant = report_unknown_keys(at);
   for (const Field& field : fields_) {
     const Cursor child = at.child(field.key);
     if (!at.has(field.key) || (!field.is_required && child.json().is_null())) {

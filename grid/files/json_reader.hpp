@@ -17,22 +17,21 @@
 ///   };
 ///
 ///   constexpr Range kCoordinate{"mm", -20000, 20000};
-///   auto hole_record() {
-///     RECORD(Hole, "a hole")
-///     REQUIRED(name, "Its name.")
-///     REQUIRED(x_mm, "Commanded x.", kCoordinate)
-///     REQUIRED(y_mm, "Commanded y, up.", kCoordinate)
-///     OPTIONAL(sigma_mm, "1 sigma on each axis.", {"mm", 0, 50});
-///   }
-///   const Record<Holes>& holes_record() {
-///     KEPT_RECORD(Holes, "a chaintrue_holes file", kHolesFormat)  // each file is read by the same table
-///     SPARSE(name, "Name in messages.")
-///     REQUIRED(holes, "The holes.", list(hole_record(), 2))
-///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
-///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
-///         });
-///     return record;
-///   }
+///   RECORD_OF(Hole, "a hole")
+///   REQUIRED(name, "Its name.")
+///   REQUIRED(x_mm, "Commanded x.", kCoordinate)
+///   REQUIRED(y_mm, "Commanded y, up.", kCoordinate)
+///   OPTIONAL(sigma_mm, "1 sigma on each axis.", {"mm", 0, 50})
+///   END_RECORD;
+///
+///   FILE_RECORD(holes, Holes, "a chaintrue_holes file", kHolesFormat)  // holes_record(), holes_schema()
+///   SPARSE(name, "Name in messages.")
+///   REQUIRED(holes, "The holes.")
+///       .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
+///         if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
+///       })
+///   END_FILE_RECORD;
+///
 ///   Holes parse_holes(const std::string& text, const std::string& file) {
 ///     return read_document(holes_record(), text, file);
 ///   }
@@ -53,9 +52,9 @@
 /// Values: a Range, or its braces, for a number, a Record for an object or a list of objects,
 /// integer, choice and by_name (an enum by its names), one_of (a text from a list), list,
 /// dictionary, a pair of functions for a variant; a std::string, a bool, an index and a list of them
-/// need none. `Record::computed` sets and gets what is not a member; `Record::custom` takes a pair of
-/// functions for whatever does not fit (a list that notes which of its elements were wrong). Keys are
-/// written in the order they are declared.
+/// need none, nor does what has a RECORD_OF above or in a header. `Record::computed` sets and gets
+/// what is not a member; `Record::custom` takes a pair of functions for whatever does not fit (a list
+/// that notes which of its elements were wrong). Keys are written in the order they are declared.
 /// "comment" is allowed in every object and not kept.
 #pragma once
 
@@ -119,8 +118,8 @@ class RecordTable {
   /// False, and reported, if this is not an object or is a file of another type or version.
   bool open(const Cursor& at, bool is_root) const;
   /// Reports unknown keys; returns the known keys for which one of them is probably a typing error.
-  std::vector<std::string> report_unknown_keys(const Cursor& at) const;
-  std::vector<std::string> keys() const;
+  Words report_unknown_keys(const Cursor& at) const;
+  Words keys() const;
 
   std::string noun_;
   const Format* format_;
@@ -202,17 +201,23 @@ class Record : public RecordTable {
   }
 
   /// A value that is not a member: `set(object, value)` stores a valid one, `get(object)` returns
-  /// it, or nothing if the key is left out; or it returns what is written.
+  /// it, or nothing if the key is left out; or it returns what is written. Either may be a member.
   template <class V, class Set, class Get>
   Record& computed(Text key, Text meaning, bool is_required, const Value<V>& value, Set set,
                    Get get) {
     return custom(
         key, meaning, is_required, value.expected,
         [value, set](const Cursor& at, T& object) {
-          if (auto read = value.read(at); read && at.clean()) set(object, *std::move(read));
+          if (auto read = value.read(at); read && at.clean()) {
+            if constexpr (std::is_member_pointer_v<Set>) {
+              object.*set = *std::move(read);
+            } else {
+              set(object, *std::move(read));
+            }
+          }
         },
         [value, get](const T& object) -> Json {
-          const auto own = get(object);
+          const auto own = std::invoke(get, object);
           if constexpr (std::is_same_v<decltype(own), const Json>) {
             return own;
           } else {
@@ -287,17 +292,40 @@ class Record : public RecordTable {
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
-/// A function's table: RECORD begins it, each line that follows adds keys, the last one ends in a
-/// semicolon. A key that has the name of its member is said once; NAMED has both. FIELD is any other
-/// call of a Record, ALSO that of a function that takes the record. KEPT_RECORD makes `record` once.
+/// Tables. RECORD_OF to END_RECORD is what members of a type expect; FILE_RECORD to END_FILE_RECORD
+/// a format, made once, with its schema. RECORD begins the table of any other function, whose last
+/// line ends in a semicolon; KEPT_RECORD makes `record` once. Each line adds keys: one that has the
+/// name of its member is said once, NAMED has both, NESTED is of a member of a member; FIELD is any
+/// other call of a Record, ALSO that of a function that takes the record.
 #define RECORD(type, ...) \
   using Own = type;       \
   return Record<Own>(__VA_ARGS__)
 #define KEPT_RECORD(type, ...) \
   using Own = type;            \
   static const auto record = Record<Own>(__VA_ARGS__)
+#define RECORD_OF(type, noun)        \
+  Record<type> record_of(Of<type>) { \
+    RECORD(type, noun)
+#define END_RECORD \
+  ;                \
+  }                \
+  static_assert(true)
+#define FILE_RECORD(name, type, noun, format)               \
+  const Record<type>& name##_record();                      \
+  Json name##_schema() { return name##_record().schema(); } \
+  const Record<type>& name##_record() {                     \
+    KEPT_RECORD(type, noun, format)
+#define END_FILE_RECORD \
+  ;                     \
+  return record;        \
+  }                     \
+  static_assert(true)
+#define EXPECTED_GIVEN(member, ...) __VA_ARGS__
+#define EXPECTED_(member) record_of(Of<Element<Held<decltype(Own::member)>::Type>::Type>())
 #define NAMED(kind, key, member, meaning, ...) \
-  .kind(key, meaning, &Own::member __VA_OPT__(, ) __VA_ARGS__)
+  .kind(key, meaning, &Own::member, EXPECTED_##__VA_OPT__(GIVEN)(member __VA_OPT__(, ) __VA_ARGS__))
+#define NESTED(kind, key, outer, inner, meaning, ...) \
+  .kind(key, meaning, path(&Own::outer, &Held<decltype(Own::outer)>::Type::inner), __VA_ARGS__)
 #define REQUIRED(member, ...) NAMED(required, #member, member, __VA_ARGS__)
 #define OPTIONAL(member, ...) NAMED(optional, #member, member, __VA_ARGS__)
 #define SPARSE(member, ...) NAMED(sparse, #member, member, __VA_ARGS__)

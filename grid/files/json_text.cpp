@@ -53,7 +53,7 @@ struct QuotedText {
   }
 
   std::string text;
-  std::vector<std::size_t> quotes;
+  Indices quotes;
 };
 
 /// The likely reason why the text is not JSON, from the characters around the place; empty if none
@@ -61,7 +61,7 @@ struct QuotedText {
 std::string likely_error(std::string_view text, std::size_t offset) {
   const std::string_view rest = text.substr(offset);
   const std::size_t before = text.substr(0, offset).find_last_not_of(" \r\n");
-  if (before != std::string_view::npos && text[before] == ',') {
+  if (before != npos && text[before] == ',') {
     if (before > 0 && is_word_character(text[before - 1]) && is_digit(rest.front()))
       return "; a decimal comma? Decimals are written with a point";
     if (rest.front() == '}' || rest.front() == ']') return "; the comma before it is superfluous";
@@ -79,9 +79,9 @@ std::string expected_by_parser(std::string_view what) {
   const auto words_from = [what](std::size_t begin) {
     return what.substr(begin, what.find("; last read", begin) - begin);
   };
-  if (const std::size_t at = what.rfind(kExpected); at != std::string_view::npos)
+  if (const std::size_t at = what.rfind(kExpected); at != npos)
     return fmt::format("JSON: {} here", words_from(at + kExpected.size()));
-  if (const std::size_t at = what.find(kInvalid); at != std::string_view::npos)
+  if (const std::size_t at = what.find(kInvalid); at != npos)
     return fmt::format("JSON: in a text, {}", words_from(at + kInvalid.size()));
   return "JSON";
 }
@@ -238,7 +238,7 @@ std::string wrapped_numbers(const Json& numbers, std::size_t indent) {
   const std::string margin = "\n" + std::string(indent, ' ');
   std::string out;
   std::size_t column = kLineWidth;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+  for (const auto i : each_index(numbers)) {
     const std::string text = scalar(numbers[i]) + (i + 1 < numbers.size() ? "," : "");
     if (column + 1 + text.size() > kLineWidth) {
       out += margin + "  ";
@@ -253,9 +253,7 @@ std::string wrapped_numbers(const Json& numbers, std::size_t indent) {
   return in_brackets(numbers, out + margin);
 }
 
-bool holds_scalars_only(const Json& value) {
-  return none_of(value, [](const Json& v) { return v.is_structured(); });
-}
+bool holds_scalars_only(const Json& value) { return none_of(value, &Json::is_structured); }
 
 /// A record in a list is written on one line, however long: one point, one line.
 bool is_a_line(const Json& value, bool in_list, std::size_t used, std::size_t length) {
@@ -266,10 +264,9 @@ bool is_a_line(const Json& value, bool in_list, std::size_t used, std::size_t le
 std::string pretty(const Json& value, bool in_list, std::size_t indent, std::size_t used) {
   std::string compact = compact_json(value);
   if (is_a_line(value, in_list, used, compact.size())) return compact;
-  if (value.is_array() && all_of(value, [](const Json& v) { return v.is_number(); }))
-    return wrapped_numbers(value, indent);
+  if (value.is_array() && all_of(value, &Json::is_number)) return wrapped_numbers(value, indent);
   const std::string margin = "\n" + std::string(indent, ' ');
-  std::vector<std::string> parts;
+  Words parts;
   for (const auto& [key, element] : value.items()) {
     const std::string label = label_in(value, key);
     parts.push_back(margin + "  " + label +
@@ -307,7 +304,7 @@ std::string print_json(const Json& value) { return pretty(value, false, 0, 0) + 
 
 std::string compact_json(const Json& value) {
   if (!value.is_structured()) return scalar(value);
-  std::vector<std::string> parts;
+  Words parts;
   for (const auto& [key, element] : value.items())
     parts.push_back(label_in(value, key) + compact_json(element));
   return in_brackets(value, joined(parts));

@@ -24,28 +24,25 @@ std::string shown(const Json& value) {
   return text != nullptr && is_beyond_double(*text) ? *text : compact_json(value);
 }
 
-std::string quoted_choice(const std::vector<std::string>& names) {
+std::string quoted_choice(const Words& names) {
   const auto quoted =
       mapped(names, [](const std::string& name) { return fmt::format("\"{}\"", name); });
   return quoted.size() == 1 ? quoted[0] : "one of " + joined(quoted);
 }
 
 /// The word if it is one of `names`; otherwise reports the nearest one.
-std::optional<std::string> word_among(const Cursor& at, const std::vector<std::string>& names,
+std::optional<std::string> word_among(const Cursor& at, const Words& names,
                                       const std::string& expected) {
-  if (!at.json().is_string()) {
-    at.expect(expected);
-    return std::nullopt;
-  }
+  if (!at.json().is_string()) return at.expect(expected);
   const auto& word = at.json().get_ref<const std::string&>();
   if (contains(names, word)) return word;
   const std::string meant = nearest(word, names);
-  at.expect(meant.empty() ? expected : fmt::format("{}; \"{}\" is the nearest", expected, meant),
-            ProblemKind::unknown_word);
-  return std::nullopt;
+  return at.expect(
+      meant.empty() ? expected : fmt::format("{}; \"{}\" is the nearest", expected, meant),
+      ProblemKind::unknown_word);
 }
 
-Expected expected_word(const std::vector<std::string>& names) {
+Expected expected_word(const Words& names) {
   return {quoted_choice(names), [names] { return Json{{"enum", names}}; }};
 }
 
@@ -77,8 +74,7 @@ std::string Cursor::pointer() const {
 Cursor Cursor::child(std::string_view key) const {
   if (!json_->is_object()) return {kNull, this, key, 0};
   const auto& members = json_->get_ref<const Json::object_t&>();
-  const auto* found =
-      find_where(members, [key](const auto& member) { return member.first == key; });
+  const auto* found = find_where(members, having(&Json::object_t::value_type::first, key));
   return {found == nullptr ? kNull : found->second, this, key, 0};
 }
 
@@ -86,8 +82,9 @@ Cursor Cursor::element(std::size_t index) const { return {(*json_)[index], this,
 
 bool Cursor::has(std::string_view key) const { return &child(key).json() != &kNull; }
 
-void Cursor::expect(std::string expected, ProblemKind kind) const {
+std::nullopt_t Cursor::expect(std::string expected, ProblemKind kind) const {
   report(shown(*json_), kind, std::move(expected));
+  return std::nullopt;
 }
 
 void Cursor::missing(std::string expected) const {
@@ -106,8 +103,7 @@ Value<double> number(Range range) {
               expected += hint_for_text(text);
               if (looks_like_decimal_comma(text)) kind = ProblemKind::decimal_comma;
             }
-            at.expect(std::move(expected), kind);
-            return std::nullopt;
+            return at.expect(std::move(expected), kind);
           },
           // A negative zero would be read back as a zero: the same number, other bytes.
           [](const double& value) { return value + 0.0; },
@@ -121,8 +117,8 @@ Value<int> integer(int least, int most) {
             const double value = is_number ? at.json().get<double>() : 0.0;
             if (is_number && value >= least && value <= most && value == std::floor(value))
               return static_cast<int>(value);
-            at.expect(expected, is_number ? ProblemKind::out_of_range : ProblemKind::not_a_number);
-            return std::nullopt;
+            return at.expect(expected,
+                             is_number ? ProblemKind::out_of_range : ProblemKind::not_a_number);
           },
           [](const int& value) { return value; },
           {expected, [=] {
@@ -137,8 +133,7 @@ template <class V>
 Value<V> typed(const std::string& expected, const Json& schema, bool (Json::*is)() const noexcept) {
   return {[=](const Cursor& at) -> std::optional<V> {
             if ((at.json().*is)()) return at.json().get<V>();
-            at.expect(expected);
-            return std::nullopt;
+            return at.expect(expected);
           },
           [](const V& value) { return value; },
           {expected, [=] { return schema; }}};
@@ -159,7 +154,7 @@ Value<std::uint64_t> seed_number() {
                               &Json::is_number_unsigned);
 }
 
-Value<std::string> one_of(const std::vector<std::string>& names) {
+Value<std::string> one_of(const Words& names) {
   const Expected expected = expected_word(names);
   return {[names, expected](const Cursor& at) { return word_among(at, names, expected.words); },
           [](const std::string& value) { return value; }, expected};
@@ -201,10 +196,7 @@ Value<std::map<std::string, double>> dictionary(const Value<double>& element) {
   using Numbers = std::map<std::string, double>;
   const std::string expected = fmt::format("an object, each value {}", element.expected.words);
   return {[element, expected](const Cursor& at) -> std::optional<Numbers> {
-            if (!at.json().is_object()) {
-              at.expect(expected);
-              return std::nullopt;
-            }
+            if (!at.json().is_object()) return at.expect(expected);
             Numbers values;
             for (const auto& [key, unused] : at.json().items()) {
               if (key == "comment") continue;

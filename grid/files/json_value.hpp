@@ -45,7 +45,7 @@ class Cursor {
   bool clean() const { return !problems_->any() || !problems_->at_or_below(pointer()); }
 
   /// Reports that this value is not the expected one; `missing` reports that it is absent.
-  void expect(std::string expected, ProblemKind kind = ProblemKind::unexpected) const;
+  std::nullopt_t expect(std::string expected, ProblemKind kind = ProblemKind::unexpected) const;
   void missing(std::string expected) const;
   /// As above, for something found inside the value, such as a wrong number of elements.
   void report(std::string_view found, ProblemKind kind, std::string expected) const {
@@ -128,6 +128,7 @@ struct Value {
     return codec->read(at, &value) ? std::optional<V>(std::move(value)) : std::nullopt;
   }
   Json write(const V& value) const { return codec->write(&value); }
+  operator Value<std::vector<V>>() const { return list(*this); }
 
   SharedCodec codec;
   Expected expected;
@@ -164,10 +165,14 @@ inline constexpr int kMostNumbered = 1000000;
 /// The number of a point, a distance or a position, from 0; or a count.
 Value<std::size_t> index_number(int least = 0, int most = kMostNumbered);
 
-/// The expectation that follows from the type: a text, true or false, an index, a list of these.
+inline constexpr Range kAnyNumber{"", -1e12, 1e12};
+/// The expectation that follows from the type: any number, a text, true or false, an index, a list
+/// of these.
 template <class V>
 Value<V> value_of_type() {
-  if constexpr (std::is_same_v<V, bool>) {
+  if constexpr (std::is_same_v<V, double>) {
+    return kAnyNumber;
+  } else if constexpr (std::is_same_v<V, bool>) {
     return boolean();
   } else if constexpr (std::is_same_v<V, std::size_t>) {
     return index_number();
@@ -178,12 +183,28 @@ Value<V> value_of_type() {
   }
 }
 
+/// A type by which record_of() finds what a member of that type expects: RECORD_OF of its own file
+/// or of a header, or else value_of_type().
+template <class T>
+struct Of {};
+/// What a list holds; anything else itself.
+template <class V>
+struct Element {
+  using Type = V;
+};
+template <class V>
+struct Element<std::vector<V>> : Element<V> {};
+template <class V>
+Value<V> record_of(Of<V>) {
+  return value_of_type<V>();
+}
+
 /// `schema` with that default if it is a number, a choice, a boolean or a non-empty list of these.
 /// Texts have no default.
 [[nodiscard]] Json with_default(Json schema, const Json& value);
 
 Value<int> integer(int least, int most);
-Value<std::string> one_of(const std::vector<std::string>& names);
+Value<std::string> one_of(const Words& names);
 
 /// A value by its name, such as an enum.
 template <class E>
@@ -206,6 +227,14 @@ Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
 template <class E, std::size_t n>
 Value<E> choice(const std::pair<std::string_view, E> (&names)[n]) {
   return choice_of<E>({std::begin(names), std::end(names)});
+}
+
+/// One of words for the enumerators 0, 1, ...
+template <class E>
+Value<E> in_order(const Words& words) {
+  std::vector<std::pair<std::string, E>> names;
+  for (const auto i : each_index(words)) names.emplace_back(words[i], static_cast<E>(i));
+  return choice_of<E>(names);
 }
 
 /// The same, with names from `name(value)`.

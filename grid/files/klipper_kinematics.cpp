@@ -239,13 +239,10 @@ std::string klipper_source(const LengthTable& table, const StraightChains& strai
          table.nodes_as_text("(", ")") + std::string(kModuleTail);
 }
 
-using model::BedPoint;
-
 /// Where straight lines of these lengths from the anchors meet, below them.
-std::optional<BedPoint> straight_place(const StraightChains& straight,
-                                       model::ChainLengths lengths) {
-  const model::PerSide<BedPoint>& anchors = straight.anchors;
-  for (const model::Side side : model::kSides) lengths[side] += straight.longer_mm[side];
+std::optional<BedPoint> straight_place(const StraightChains& straight, ChainLengths lengths) {
+  const PerSide<BedPoint>& anchors = straight.anchors;
+  for (const Side side : kSides) lengths[side] += straight.longer_mm[side];
   const double dx = anchors.right.x_mm - anchors.left.x_mm;
   const double dy = anchors.right.y_mm - anchors.left.y_mm;
   const double apart = std::hypot(dx, dy);
@@ -265,8 +262,8 @@ std::optional<double> largest_bend(const LengthTable& table, const StraightChain
     return straight_place(straight, {table.node(row, column, 0), table.node(row, column, 1)});
   };
   double largest = 0.0;
-  for (int row = 0; row < table.rows; ++row) {
-    for (int column = 0; column < table.columns; ++column) {
+  for (const int row : each_below(table.rows)) {
+    for (const int column : each_below(table.columns)) {
       const auto here = place(row, column);
       if (!here) return std::nullopt;
       const auto bend = [&](const std::optional<BedPoint>& a, const std::optional<BedPoint>& b,
@@ -300,7 +297,7 @@ tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(const LengthMap& 
                                                                const StraightChains& straight,
                                                                const std::string& name) {
   const auto table = length_table(map);
-  if (!table) return tl::unexpected(table.error());
+  if (!table) return failed(table);
   const auto bend = largest_bend(*table, straight);
   if (!bend) return tl::unexpected(MapReason::unreachable);
   const double piece_mm = piece_for(*bend);

@@ -39,8 +39,8 @@ struct KlipperKinematics : TableModule {
 /// Approximate origins of the chains, in the map's frame, and o of (1); straight_settings.hpp gives
 /// the best, and nearby ones serve.
 struct StraightChains {
-  model::PerSide<model::BedPoint> anchors;
-  model::ChainLengths longer_mm;
+  PerSide<BedPoint> anchors;
+  ChainLengths longer_mm;
 };
 
 /// Over the map's domain. Fails if the map has no answer somewhere, or straight chains from there do not meet.

@@ -23,9 +23,9 @@ double interpolated(const LengthTable& table, double column, double row, std::si
   const int i = std::min(static_cast<int>(column), table.columns - 2);
   const int k = std::min(static_cast<int>(row), table.rows - 2);
   std::array<double, 4> along_y{};
-  for (int up = 0; up < 4; ++up) {
+  for (const int up : each_below(4)) {
     std::array<double, 4> along_x{};
-    for (int right = 0; right < 4; ++right)
+    for (const int right : each_below(4))
       along_x[as_size(right)] = table.node(k + up - 1, i + right - 1, side);
     along_y[as_size(up)] = between(along_x, column - i);
   }
@@ -43,10 +43,10 @@ tl::expected<LengthTable, MapFailure> tabulated(const LengthMap& map, double spa
   };
   table.columns = count(table.area.x_max - table.area.x_min);
   table.rows = count(table.area.y_max - table.area.y_min);
-  for (int row = 0; row < table.rows; ++row) {
-    for (int column = 0; column < table.columns; ++column) {
+  for (const int row : each_below(table.rows)) {
+    for (const int column : each_below(table.columns)) {
       const auto lengths = map.lengths({table.x(column), table.y(row)});
-      if (!lengths) return tl::unexpected(lengths.error());
+      if (!lengths) return failed(lengths);
       table.nodes.push_back({as_written(lengths->left_mm), as_written(lengths->right_mm)});
     }
   }
@@ -60,7 +60,7 @@ tl::expected<double, MapFailure> largest_error(const LengthMap& map, const Lengt
       for (const auto& [right, up] :
            {std::pair{0.5, 0.5}, std::pair{0.5, 0.0}, std::pair{0.0, 0.5}}) {
         const auto lengths = map.lengths({table.x(column + right), table.y(row + up)});
-        if (!lengths) return tl::unexpected(lengths.error());
+        if (!lengths) return failed(lengths);
         largest = std::max(
             {largest, std::abs(interpolated(table, column + right, row + up, 0) - lengths->left_mm),
              std::abs(interpolated(table, column + right, row + up, 1) - lengths->right_mm)});
@@ -87,9 +87,9 @@ double LengthTable::node(int row, int column, std::size_t side) const {
 
 std::string LengthTable::nodes_as_text(std::string_view open, std::string_view close) const {
   std::string text;
-  for (int row = 0; row < rows; ++row) {
+  for (const int row : each_below(rows)) {
     text += fmt::format("    {}", open);
-    for (int column = 0; column < columns; ++column) {
+    for (const int column : each_below(columns)) {
       text += fmt::format("{}{}{:.5f}, {:.5f}{}",
                           column == 0       ? ""
                           : column % 4 == 0 ? ",\n     "
@@ -106,9 +106,9 @@ tl::expected<LengthTable, MapFailure> length_table(const LengthMap& map) {
   constexpr double kWidestMm = 80.0, kNarrowestMm = 5.0;
   for (double spacing_mm = kWidestMm;; spacing_mm *= 0.5) {
     auto table = tabulated(map, spacing_mm);
-    if (!table) return tl::unexpected(table.error());
+    if (!table) return failed(table);
     const auto error = largest_error(map, *table);
-    if (!error) return tl::unexpected(error.error());
+    if (!error) return failed(error);
     if (*error > kTableErrorMm && spacing_mm > kNarrowestMm) continue;
     table->largest_error_mm = *error;
     return table;

@@ -22,6 +22,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/failed.hpp"
 #include "grid/map/length_map.hpp"
 
 namespace chaintrue::grid::files {

@@ -189,7 +189,7 @@ std::string linuxcnc_source(const LengthTable& table, const LinuxcncNames& names
 tl::expected<TableModule, MapFailure> linuxcnc_kinematics(const LengthMap& map,
                                                           const LinuxcncNames& names) {
   const auto table = length_table(map);
-  if (!table) return tl::unexpected(table.error());
+  if (!table) return failed(table);
   return TableModule{*table, linuxcnc_source(*table, names)};
 }
 

@@ -16,7 +16,7 @@ namespace {
 /// Links of the chains that are sold for this part at 3.5 kN; motors stall before.
 constexpr double kMostPullN = 2000.0;
 
-std::array<std::pair<std::string_view, model::BedPoint>, 5> outermost_of(const model::Bed& bed) {
+std::array<std::pair<std::string_view, BedPoint>, 5> outermost_of(const Bed& bed) {
   const double x = 0.5 * bed.width_mm, y = 0.5 * bed.height_mm;
   return {{{"middle of the upper edge", {0.0, y}},
            {"upper left corner", {-x, y}},
@@ -25,7 +25,7 @@ std::array<std::pair<std::string_view, model::BedPoint>, 5> outermost_of(const m
            {"lower right corner", {x, -y}}}};
 }
 
-void check_bed(const model::Machine& machine, Problems& problems) {
+void check_bed(const Machine& machine, Problems& problems) {
   const double half = 0.5 * machine.bed.width_mm;
   if (machine.motors.left.x_mm > -half || machine.motors.right.x_mm < half) {
     problems.add("the machine's motors",
@@ -34,7 +34,7 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                  ProblemKind::impossible, "motors beyond both sides of the bed");
     return;
   }
-  const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
+  const auto kinematics = make_kinematics(equilibrium_parameters(machine));
   for (const auto& [name, place] : outermost_of(machine.bed)) {
     const auto pose = kinematics->inverse(place);
     if (!pose) {
@@ -57,13 +57,13 @@ void check_bed(const model::Machine& machine, Problems& problems) {
 
 }  // namespace
 
-void check_geometry(const model::Machine& machine, Problems& problems) {
-  problems.add_all("the machine's ", model::problems_of(machine));
+void check_geometry(const Machine& machine, Problems& problems) {
+  problems.add_all("the machine's ", problems_of(machine));
   if (!problems.any()) check_bed(machine, problems);
 }
 
-double longest_chain_mm(const model::Machine& machine) {
-  const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
+double longest_chain_mm(const Machine& machine) {
+  const auto kinematics = make_kinematics(equilibrium_parameters(machine));
   double longest = 0.0;
   for (const auto& [name, place] : outermost_of(machine.bed)) {
     const auto pose = kinematics->inverse(place);
@@ -84,7 +84,7 @@ void refuse_foreign_settings(std::string_view text, Problems& problems) {
                                    {"Klipper", "[stepper_"}};
   for (const Program& program : kPrograms) {
     const std::size_t at = text.find(program.section);
-    const bool is_at_line = at == 0 || (at != std::string_view::npos && text[at - 1] == '\n');
+    const bool is_at_line = at == 0 || (at != npos && text[at - 1] == '\n');
     if (!is_at_line) continue;
     problems.explain(
         line_and_column_of(text, at), ProblemKind::file_kind,

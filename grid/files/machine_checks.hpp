@@ -12,11 +12,11 @@ namespace chaintrue::grid::files {
 
 /// Reports model::problems_of, motors that are not beyond the bed, and a place of the bed where no
 /// sled can hang, or where the chains would need more pull than motors have.
-void check_geometry(const model::Machine& machine, Problems& problems);
+void check_geometry(const Machine& machine, Problems& problems);
 
 /// The longest chain that any place of the bed needs, from the sprocket to the sled. \pre a machine
 /// without problems.
-double longest_chain_mm(const model::Machine& machine);
+double longest_chain_mm(const Machine& machine);
 
 /// How to give a machine that runs LinuxCNC or Klipper, where `text` is such a program's settings;
 /// reports it.

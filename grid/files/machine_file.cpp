@@ -15,40 +15,32 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Brackets;
-using model::Machine;
-using model::MotorPosition;
-using model::Ring;
 using model::Uncertainty;
 
-auto bed_record() {
-  RECORD(model::Bed, "a bed")
-  REQUIRED(width_mm, "Width of the sheet that the machine can cut.", kMillimetres)
-  REQUIRED(height_mm,
-           "Height of that sheet. The origin of all coordinates is "
-           "its middle, x to the right, y up.",
-           kMillimetres);
-}
+RECORD_OF(Bed, "a bed")
+REQUIRED(width_mm, "Width of the sheet that the machine can cut.", kMillimetres)
+REQUIRED(height_mm,
+         "Height of that sheet. The origin of all coordinates is "
+         "its middle, x to the right, y up.",
+         kMillimetres)
+END_RECORD;
 
-auto motor_record() {
-  RECORD(MotorPosition, "a motor's position")
-  FIELD(place, "x of the motor's axis, from the middle of the bed to the right.",
-        "y of the motor's axis, up from the middle of the bed.", kMillimetres);
-}
+RECORD_OF(model::MotorPosition, "a motor's position")
+FIELD(place, "x of the motor's axis, from the middle of the bed to the right.",
+      "y of the motor's axis, up from the middle of the bed.", kMillimetres)
+END_RECORD;
 
-auto motors_record() {
-  RECORD(model::PerSide<MotorPosition>, "the motors")
-  REQUIRED(left, "The left motor.", motor_record())
-  REQUIRED(right, "The right motor.", motor_record());
-}
+RECORD_OF(PerSide<model::MotorPosition>, "the motors")
+REQUIRED(left, "The left motor.")
+REQUIRED(right, "The right motor.")
+END_RECORD;
 
-auto sprocket_record() {
-  RECORD(model::Sprocket, "a sprocket")
-  REQUIRED(teeth, "Number of teeth of a sprocket.", integer(1, 1000))
-  REQUIRED(pitch_mm, "The chain's pitch, one link.", kMillimetres)
-  OPTIONAL(radius_mm, "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
-           kMillimetres);
-}
+RECORD_OF(model::Sprocket, "a sprocket")
+REQUIRED(teeth, "Number of teeth of a sprocket.", integer(1, 1000))
+REQUIRED(pitch_mm, "The chain's pitch, one link.", kMillimetres)
+OPTIONAL(radius_mm, "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
+         kMillimetres)
+END_RECORD;
 
 auto ring_record() {
   RECORD(Ring, "a ring")
@@ -60,7 +52,7 @@ auto ring_record() {
 }
 
 auto brackets_record() {
-  RECORD(Brackets, "a pair of brackets")
+  RECORD(model::Brackets, "a pair of brackets")
   FIELD(constant, "kind", "The chains end at two brackets of the sled.", "brackets")
   REQUIRED(spacing_mm, "Distance between the ends of the two chains.", kMillimetres)
   REQUIRED(height_mm, "Height of the chains' ends above the bit.", kMillimetres)
@@ -84,7 +76,7 @@ std::optional<Attachment> read_attachment(const Cursor& at) {
 
 Json write_attachment(const Attachment& attachment) {
   if (const auto* ring = std::get_if<Ring>(&attachment)) return ring_record().write(*ring);
-  return brackets_record().write(std::get<Brackets>(attachment));
+  return brackets_record().write(std::get<model::Brackets>(attachment));
 }
 
 Value<Attachment> attachment_value() {
@@ -95,50 +87,44 @@ Value<Attachment> attachment_value() {
            }}};
 }
 
-auto chain_record() {
-  RECORD(model::Chain, "a chain")
-  REQUIRED(mass_kg_per_m, "Mass of a metre of chain.", number_in("kg/m"))
-  REQUIRED(compliance_per_n, "Strain of the chain per newton; 0: none.", number_in("1/N"));
-}
+RECORD_OF(model::Chain, "a chain")
+REQUIRED(mass_kg_per_m, "Mass of a metre of chain.", number_in("kg/m"))
+REQUIRED(compliance_per_n, "Strain of the chain per newton; 0: none.", number_in("1/N"))
+END_RECORD;
 
 auto chain_zero_record() {
-  RECORD(model::ChainLengths, "the chain zeros")
+  RECORD(ChainLengths, "the chain zeros")
   OPTIONAL(left_mm, "Added to every reading of the left chain.", kMillimetres)
   OPTIONAL(right_mm, "Added to every reading of the right chain.", kMillimetres);
 }
 
-auto sled_record() {
-  RECORD(model::Sled, "a sled")
-  REQUIRED(mass_kg, "Mass of the sled with its router.", number_in("kg"));
-}
+RECORD_OF(model::Sled, "a sled")
+REQUIRED(mass_kg, "Mass of the sled with its router.", number_in("kg"))
+END_RECORD;
 
-auto frame_record() {
-  RECORD(model::Frame, "a frame")
-  REQUIRED(tilt_from_vertical_deg, "Angle by which the frame leans back; 0: upright.",
-           number_in("degrees"));
-}
+RECORD_OF(model::Frame, "a frame")
+REQUIRED(tilt_from_vertical_deg, "Angle by which the frame leans back; 0: upright.",
+         number_in("degrees"))
+END_RECORD;
 
-auto uncertainty_record() {
-  RECORD(Uncertainty, "the uncertainties")
-  OPTIONAL(motor_position_mm, "Uncertainty of each coordinate of a motor, 1 sigma.", kMillimetres)
-  OPTIONAL(chain_zero_mm, "Uncertainty of each chain's zero, 1 sigma.", kMillimetres)
-  OPTIONAL(ring_radius_mm, "Uncertainty of the ring's radius, 1 sigma.", kMillimetres)
-      .check([](const Cursor& at, Uncertainty&) {
-        for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
-          if (at.is_null(key)) at.child(key).warn("missing; its default is assumed");
-        }
-      });
-}
+RECORD_OF(Uncertainty, "the uncertainties")
+OPTIONAL(motor_position_mm, "Uncertainty of each coordinate of a motor, 1 sigma.", kMillimetres)
+OPTIONAL(chain_zero_mm, "Uncertainty of each chain's zero, 1 sigma.", kMillimetres)
+OPTIONAL(ring_radius_mm, "Uncertainty of the ring's radius, 1 sigma.", kMillimetres)
+    .check([](const Cursor& at, Uncertainty&) {
+      for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
+        if (at.is_null(key)) at.child(key).warn("missing; its default is assumed");
+      }
+    }) END_RECORD;
 
-auto controller_record() {
-  RECORD(model::Controller, "a controller")
-  REQUIRED(kind,
-           "The firmware, whose kinematics converts commands into chain lengths. ideal "
-           "uses the machine file as it is.",
-           choice(kControllerKinds))
-  OPTIONAL(settings, "The firmware's settings, by GroundControl's names.",
-           controller_settings_record());
-}
+RECORD_OF(model::Controller, "a controller")
+REQUIRED(kind,
+         "The firmware, whose kinematics converts commands into chain lengths. ideal "
+         "uses the machine file as it is.",
+         choice(kControllerKinds))
+OPTIONAL(settings, "The firmware's settings, by GroundControl's names.",
+         controller_settings_record())
+END_RECORD;
 
 /// No hanging router has a bed and motors below this in mm; in inches and centimetres all are below
 /// it.
@@ -179,20 +165,18 @@ void check_machine(const Cursor& at, Machine& machine) {
                     size(machine.bed.width_mm, machine.bed.height_mm)));
     return;
   }
-  report_impossible(at, model::problems_of(machine));
+  report_impossible(at, problems_of(machine));
   // The sums of effects and machine are checked only if the machine itself is valid.
   if (!at.clean()) return;
   check_declared_on_bed(at.child("declared_effects"), machine);
-  for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
+  for (const MachineProblem& problem : model::effects::problems_of_effects(machine)) {
     at.problems().add(at.pointer() + problem.parameter, problem);
   }
 }
 
 /// An object without keys is probably a question about the required keys: list them all.
 void refuse_emptiness(const std::string& text, Problems& problems) {
-  if (text.find_first_not_of(" \t\r\n{}") != std::string::npos ||
-      text.find('{') == std::string::npos)
-    return;
+  if (text.find_first_not_of(" \t\r\n{}") != npos || !has(text, '{')) return;
   problems.add("", "an empty machine", ProblemKind::missing,
                "a machine; chaintrue start writes one to fill in, with every key explained");
   problems.throw_if_any();
@@ -215,44 +199,36 @@ Record<ControllerSettings> controller_settings_record() {
   return settings;
 }
 
-Record<model::AppliedEffect> effect_record() {
-  using model::AppliedEffect;
-  RECORD(AppliedEffect, "an effect")
-  REQUIRED(effect, "Its name, as chaintrue effects lists them.")
-  SPARSE(side, "Where it acts; none for effects without a side.",
-         one_of({"left", "right", "both", "x", "y"}))
-  REQUIRED(parameters, "Its size and other parameters, by name.", dictionary(number_in("")))
-  OPTIONAL(probability, "Its probability, if a diagnosis added it; otherwise absent.", kShare);
-}
+RECORD_OF(AppliedEffect, "an effect")
+REQUIRED(effect, "Its name, as chaintrue effects lists them.")
+SPARSE(side, "Where it acts; none for effects without a side.",
+       one_of({"left", "right", "both", "x", "y"}))
+REQUIRED(parameters, "Its size and other parameters, by name.", dictionary(number_in("")))
+OPTIONAL(probability, "Its probability, if a diagnosis added it; otherwise absent.", kShare)
+END_RECORD;
 
-const Record<Machine>& machine_record() {
-  KEPT_RECORD(Machine, "a machine", kMachineFormat)
-  OPTIONAL(name, "Name of the machine in messages and pages.")
-  REQUIRED(bed, "The sheet that the machine can cut.", bed_record())
-  REQUIRED(motors, "Positions of the motors' axes.", motors_record())
-  REQUIRED(sprocket, "The sprocket on a motor.", sprocket_record())
-  REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
-  REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
-  REQUIRED(chain, "The chain's mass and stretch.", chain_record())
-  OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())
-  REQUIRED(sled, "The sled.", sled_record())
-  REQUIRED(frame, "The frame that carries everything.", frame_record())
-  OPTIONAL(uncertainty,
-           "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
-           "are assumed and reported.",
-           uncertainty_record())
-  SPARSE(controller,
-         "The firmware and its settings; default: an ideal one that uses the machine file as "
-         "it is.",
-         controller_record())
-  NAMED(sparse, "declared_effects", declared,
-        "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
-        "file.",
-        declared_value())
-  SPARSE(effects, "Known causes of error, part of the machine.", effect_record())
-      .check(check_machine);
-  return record;
-}
+FILE_RECORD(machine, Machine, "a machine", kMachineFormat)
+OPTIONAL(name, "Name of the machine in messages and pages.")
+REQUIRED(bed, "The sheet that the machine can cut.")
+REQUIRED(motors, "Positions of the motors' axes.")
+REQUIRED(sprocket, "The sprocket on a motor.")
+REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
+REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
+REQUIRED(chain, "The chain's mass and stretch.")
+OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())
+REQUIRED(sled, "The sled.")
+REQUIRED(frame, "The frame that carries everything.")
+OPTIONAL(uncertainty,
+         "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
+         "are assumed and reported.")
+SPARSE(controller,
+       "The firmware and its settings; default: an ideal one that uses the machine file as "
+       "it is.")
+NAMED(sparse, "declared_effects", declared,
+      "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
+      "file.",
+      declared_value())
+SPARSE(effects, "Known causes of error, part of the machine.").check(check_machine) END_FILE_RECORD;
 
 ReadMachine parse_machine(const std::string& text, const std::string& file) {
   Problems problems(file);
@@ -261,12 +237,10 @@ ReadMachine parse_machine(const std::string& text, const std::string& file) {
   return {std::move(machine), problems.warnings()};
 }
 
-std::string write_machine(const Machine& machine, const std::vector<std::string>& comments) {
+std::string write_machine(const Machine& machine, const Words& comments) {
   Json json = machine_record().write(machine);
   if (!comments.empty()) json["comment"] = comments;
   return print_json(json);
 }
-
-Json machine_schema() { return machine_record().schema(); }
 
 }  // namespace chaintrue::grid::files

@@ -17,7 +17,7 @@
 namespace chaintrue::grid::files {
 
 struct ReadMachine {
-  model::Machine machine;
+  Machine machine;
   /// What was assumed because the file does not state it.
   std::vector<Warning> warnings;
 };
@@ -26,7 +26,6 @@ struct ReadMachine {
 ReadMachine parse_machine(const std::string& text, const std::string& file);
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number of the machine is not finite.
-std::string write_machine(const model::Machine& machine,
-                          const std::vector<std::string>& comments = {});
+std::string write_machine(const Machine& machine, const std::vector<std::string>& comments = {});
 
 }  // namespace chaintrue::grid::files

@@ -13,60 +13,50 @@ namespace {
 constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kSigmaFactor{"", 1.0, 1e6};
 
-auto mark_record() {
-  RECORD(model::MarkPoint, "a point")
-  FIELD(place, "x of the tool. Null in a list that is not filled in yet.",
-        "y of the tool, up. Null in a list that is not filled in yet.", kPlaceMm);
-}
+RECORD_OF(MarkPoint, "a point")
+FIELD(place, "x of the tool. Null in a list that is not filled in yet.",
+      "y of the tool, up. Null in a list that is not filled in yet.", kPlaceMm)
+END_RECORD;
 
-auto outside_record() {
-  RECORD(OutsideRule, "behaviour outside the measured part")
-  REQUIRED(way, "Behaviour outside the measured part.", choice(kOutsideWays))
-  OPTIONAL(fade_width_mm, "For fade: distance over which the correction goes to zero.",
-           kFadeWidthMm);
-}
+RECORD_OF(OutsideRule, "behaviour outside the measured part")
+REQUIRED(way, "Behaviour outside the measured part.", choice(kOutsideWays))
+OPTIONAL(fade_width_mm, "For fade: distance over which the correction goes to zero.", kFadeWidthMm)
+END_RECORD;
 
-auto map_noise_record() {
-  RECORD(MapNoise, "the noise used by the fit")
-  REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNotNegative)
-  REQUIRED(position_mm, "Noise of a position, 1 sigma on each axis.", kNotNegative)
-  REQUIRED(source, "Where it comes from.", by_name_to(NoiseSource::assumed))
-  REQUIRED(factor_found, "Scatter of the points relative to this noise.", kNotNegative);
-}
+RECORD_OF(MapNoise, "the noise used by the fit")
+REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNotNegative)
+REQUIRED(position_mm, "Noise of a position, 1 sigma on each axis.", kNotNegative)
+REQUIRED(source, "Where it comes from.", by_name_to(NoiseSource::assumed))
+REQUIRED(factor_found, "Scatter of the points relative to this noise.", kNotNegative)
+END_RECORD;
 
-auto held_out_record() {
-  RECORD(HeldOutError, "errors of points left out")
-  REQUIRED(chain, "In a chain's length.", error_summary_record())
-  REQUIRED(tool, "At the tool.", error_summary_record())
-  REQUIRED(tool_x_rms_mm, "At the tool, in x.", kNotNegative)
-  REQUIRED(tool_y_rms_mm, "At the tool, in y.", kNotNegative);
-}
+RECORD_OF(HeldOutError, "errors of points left out")
+REQUIRED(chain, "In a chain's length.")
+REQUIRED(tool, "At the tool.")
+REQUIRED(tool_x_rms_mm, "At the tool, in x.", kNotNegative)
+REQUIRED(tool_y_rms_mm, "At the tool, in y.", kNotNegative)
+END_RECORD;
 
 constexpr const char* kRelativeTo =
     "leave_one_out and blocked: relative to the readings, whose noise they contain; expected_tool: "
     "one sigma, relative "
     "to the true machine";
 
-auto accuracy_record() {
-  RECORD(MapAccuracy, "the map's own error")
-  FIELD(constant, "relative_to", "What the errors are relative to.", kRelativeTo)
-  REQUIRED(leave_one_out, "Errors of points predicted by a map without them, one at a time.",
-           held_out_record())
-  REQUIRED(blocked, "The same with a block of the bed left out at a time.", held_out_record())
-  REQUIRED(expected_tool, "Expected error of the tool over the measured part.",
-           error_summary_record())
-  REQUIRED(expected_worst_at, "Where it is largest.", mark_record());
-}
+RECORD_OF(MapAccuracy, "the map's own error")
+FIELD(constant, "relative_to", "What the errors are relative to.", kRelativeTo)
+REQUIRED(leave_one_out, "Errors of points predicted by a map without them, one at a time.")
+REQUIRED(blocked, "The same with a block of the bed left out at a time.")
+REQUIRED(expected_tool, "Expected error of the tool over the measured part.")
+REQUIRED(expected_worst_at, "Where it is largest.")
+END_RECORD;
 
 auto map_point_record() {
   const auto pair = pair_of_numbers(kErrorMm);
   RECORD(MapPoint, "a measured point")
   FIELD(place, &MapPoint::mark, "x, to the right of the bed's middle, or of the marks' origin.",
         "y, up from the bed's middle, or from the marks' origin.", kPlaceMm)
-  FIELD(required, "left_mm", "The left chain.",
-        path(&MapPoint::lengths, &model::ChainLengths::left_mm), kPlaceMm)
-  FIELD(required, "right_mm", "The right chain.",
-        path(&MapPoint::lengths, &model::ChainLengths::right_mm), kPlaceMm)
+  NESTED(required, "left_mm", lengths, left_mm, "The left chain.", kPlaceMm)
+  NESTED(required, "right_mm", lengths, right_mm, "The right chain.", kPlaceMm)
   REQUIRED(bad, "True if the fit left it out.")
   REQUIRED(distance_sigmas, "Its distance from the prediction of the others, in sigmas.",
            kNotNegative)
@@ -76,17 +66,15 @@ auto map_point_record() {
   REQUIRED(left_out_mm, "The same with a map made without it.", pair);
 }
 
-auto mirror_record() {
-  RECORD(MirrorTest, "comparison of mirrored chains")
-  REQUIRED(points, "Number of points whose mirror image was measured.")
-  REQUIRED(difference, "Right chain minus left chain at the mirrored place.",
-           error_summary_record())
-  REQUIRED(mean_mm, "Mean difference.", kErrorMm)
-  REQUIRED(worst_at, "Where the difference is largest.", mark_record())
-  REQUIRED(worst_signed_mm, "The difference there.", kErrorMm)
-  REQUIRED(holds, "True if noise alone explains the difference.")
-  REQUIRED(sentence, "The same in words.");
-}
+RECORD_OF(MirrorTest, "comparison of mirrored chains")
+REQUIRED(points, "Number of points whose mirror image was measured.")
+REQUIRED(difference, "Right chain minus left chain at the mirrored place.")
+REQUIRED(mean_mm, "Mean difference.", kErrorMm)
+REQUIRED(worst_at, "Where the difference is largest.")
+REQUIRED(worst_signed_mm, "The difference there.", kErrorMm)
+REQUIRED(holds, "True if noise alone explains the difference.")
+REQUIRED(sentence, "The same in words.")
+END_RECORD;
 
 auto distances_record() {
   const auto count = integer(0, kMostNumbered);
@@ -94,9 +82,8 @@ auto distances_record() {
   REQUIRED(used, "Number of distances used.", count)
   NAMED(required, "set_aside", rejected, "Number of distances left out.", count)
   REQUIRED(tape_sigma_mm, "Noise of the tape in the fit, 1 sigma.", kNotNegative)
-  REQUIRED(left_out_all, "Errors of distances predicted by a map without them.",
-           error_summary_record())
-  REQUIRED(left_out_good, "The same without the rejected distances.", error_summary_record());
+  REQUIRED(left_out_all, "Errors of distances predicted by a map without them.")
+  REQUIRED(left_out_good, "The same without the rejected distances.");
 }
 
 void check_map(const Cursor& at, MapContents& map) {
@@ -116,40 +103,38 @@ void check_map(const Cursor& at, MapContents& map) {
   }
 }
 
-const Record<MapContents>& map_record() {
-  KEPT_RECORD(MapContents, "a chaintrue_map file", kMapFormat)
-  OPTIONAL(name, "Name of the grid.")
-  ALSO(add_surface)
-  NAMED(required, "domain_mm", domain, "Where the map can be evaluated.", rectangle_record())
-  REQUIRED(hull, "Corners of the measured part, counter-clockwise.", list(mark_record(), 3))
-  REQUIRED(edge_mm, "Places closer to the hull than this count as on its edge.", kNotNegative)
-  SPARSE(outside, "Behaviour outside the hull.", outside_record())
-  SPARSE(sigma_factor_beyond,
-         "Factor on sigmas outside the measured part if causes were found, so that the larger "
-         "error "
-         "of the plain map applies there.",
-         kSigmaFactor)
-  REQUIRED(noise, "The noise used by the fit.", map_noise_record())
-  REQUIRED(accuracy, "The map's own error.", accuracy_record())
-  REQUIRED(settings, "The machine's numbers, as in its file and calibrated.", setting_record())
-  REQUIRED(points, "The points that the map was made from.", map_point_record())
-  OPTIONAL(mirror, "Whether one chain's surface is the other's, mirrored.", mirror_record())
-  OPTIONAL(distances, "For a map from holes and a tape.", distances_record())
-  REQUIRED(notes, "Notes for the reader, in sentences.")
-  ALSO(add_made_by_key)
-  ALSO(add_content_hash, "Hash of everything else; an edited map is refused.")
-      .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
-      .check(check_map);
-  return record;
-}
-
 }  // namespace
+
+FILE_RECORD(map, MapContents, "a chaintrue_map file", kMapFormat)
+OPTIONAL(name, "Name of the grid.")
+ALSO(add_surface)
+NAMED(required, "domain_mm", domain, "Where the map can be evaluated.")
+REQUIRED(hull, "Corners of the measured part, counter-clockwise.",
+         list(record_of(Of<MarkPoint>()), 3))
+REQUIRED(edge_mm, "Places closer to the hull than this count as on its edge.", kNotNegative)
+SPARSE(outside, "Behaviour outside the hull.")
+SPARSE(sigma_factor_beyond,
+       "Factor on sigmas outside the measured part if causes were found, so that the larger "
+       "error "
+       "of the plain map applies there.",
+       kSigmaFactor)
+REQUIRED(noise, "The noise used by the fit.")
+REQUIRED(accuracy, "The map's own error.")
+REQUIRED(settings, "The machine's numbers, as in its file and calibrated.", setting_record())
+REQUIRED(points, "The points that the map was made from.", map_point_record())
+OPTIONAL(mirror, "Whether one chain's surface is the other's, mirrored.")
+OPTIONAL(distances, "For a map from holes and a tape.", distances_record())
+REQUIRED(notes, "Notes for the reader, in sentences.")
+ALSO(add_made_by_key)
+ALSO(add_content_hash, "Hash of everything else; an edited map is refused.")
+    .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
+    .check(check_map) END_FILE_RECORD;
 
 Record<SettingResult> setting_record() {
   RECORD(SettingResult, "a setting")
   REQUIRED(setting, "Name of the setting.", setting_word())
-  REQUIRED(stated, "Value in the machine file.", kAnyNumber)
-  REQUIRED(calibrated, "Calibrated value.", kAnyNumber)
+  REQUIRED(stated, "Value in the machine file.")
+  REQUIRED(calibrated, "Calibrated value.")
   REQUIRED(sigma, "Uncertainty of the calibrated value, 1 sigma.", kNotNegative)
   REQUIRED(off, "True if it differs by more than its uncertainty allows.");
 }
@@ -161,7 +146,5 @@ CompensationMap parse_map(const std::string& text, const std::string& file) {
 std::string write_map(const CompensationMap& map, const std::optional<Provenance>& made_by) {
   return print_with_hash(with_made_by(map_record().write(map.contents()), made_by));
 }
-
-Json map_schema() { return map_record().schema(); }
 
 }  // namespace chaintrue::grid::files

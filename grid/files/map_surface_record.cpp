@@ -13,17 +13,15 @@
 
 namespace chaintrue::grid::files {
 
-Record<interp::Rectangle> rectangle_record() {
-  RECORD(interp::Rectangle, "a rectangle in mm")
-  REQUIRED(x_min, "Left edge.", kPlaceMm)
-  REQUIRED(x_max, "Right edge.", kPlaceMm)
-  REQUIRED(y_min, "Lower edge.", kPlaceMm)
-  REQUIRED(y_max, "Upper edge.", kPlaceMm).check([](const Cursor& at, interp::Rectangle& r) {
-    if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
-      at.expect("a rectangle whose maxima exceed its minima");
-    }
-  });
-}
+RECORD_OF(interp::Rectangle, "a rectangle in mm")
+REQUIRED(x_min, "Left edge.", kPlaceMm)
+REQUIRED(x_max, "Right edge.", kPlaceMm)
+REQUIRED(y_min, "Lower edge.", kPlaceMm)
+REQUIRED(y_max, "Upper edge.", kPlaceMm).check([](const Cursor& at, interp::Rectangle& r) {
+  if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
+    at.expect("a rectangle whose maxima exceed its minima");
+  }
+}) END_RECORD;
 
 namespace {
 
@@ -33,54 +31,50 @@ struct SplinePart {
   interp::Rectangle rectangle;
   int x_intervals = 0;
   int y_intervals = 0;
-  model::PerSide<double> scale;
-  model::PerSide<VectorXd> coefficients_mm;
+  PerSide<double> scale;
+  PerSide<VectorXd> coefficients_mm;
 };
 
 /// A ModelSurface as its file has it: the basis by its intervals, and the triangle alone of the
 /// covariance.
 struct ModelPart {
-  model::Machine machine;
-  model::SheetPlacement sheet;
-  std::vector<model::Setting> settings;
+  Machine machine;
+  SheetPlacement sheet;
+  std::vector<Setting> settings;
   SplinePart residual;
   std::vector<Numbers> covariance_factor;
   std::optional<LatticeResidual> lattice;
 };
 
-using model::PerSide;
-
 auto sheet_placement_record() {
-  RECORD(model::SheetPlacement, "a sheet's placement")
+  RECORD(SheetPlacement, "a sheet's placement")
   FIELD(place, "x of the marks' origin on the bed.", "y of the marks' origin on the bed, up.",
         kPlaceMm)
   REQUIRED(rotation_rad, "Rotation of the marks, counter-clockwise.", {"rad", -7.0, 7.0});
 }
 
-auto spline_record() {
-  RECORD(SplinePart, "a residual surface")
-  NAMED(required, "rectangle_mm", rectangle, "Where the splines are defined.", rectangle_record())
-  REQUIRED(x_intervals, "Equal intervals along x.", integer(1, 1000))
-  REQUIRED(y_intervals, "Equal intervals along y.", integer(1, 1000))
-  FIELD(required, "scale_left", "Correction of the left chain per mm of length.",
-        path(&SplinePart::scale, &PerSide<double>::left), {"", -0.1, 0.1})
-  FIELD(required, "scale_right", "Correction of the right chain per mm of length.",
-        path(&SplinePart::scale, &PerSide<double>::right), {"", -0.1, 0.1})
-  FIELD(required, "coefficients_left_mm",
-        "Coefficients of cubic B-splines for the left chain, y varying fastest: "
-        "(x_intervals + 3) (y_intervals + 3) values.",
-        path(&SplinePart::coefficients_mm, &PerSide<VectorXd>::left), vector_of_numbers())
-  FIELD(required, "coefficients_right_mm", "Coefficients for the right chain, in the same order.",
-        path(&SplinePart::coefficients_mm, &PerSide<VectorXd>::right), vector_of_numbers())
-      .check([](const Cursor& at, SplinePart& part) {
-        if (!at.clean()) return;
-        const Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
-        const std::string expected = fmt::format("{} coefficients, as the intervals require", size);
-        const auto& [left, right] = part.coefficients_mm;
-        if (left.size() != size) at.child("coefficients_left_mm").expect(expected);
-        if (right.size() != size) at.child("coefficients_right_mm").expect(expected);
-      });
-}
+RECORD_OF(SplinePart, "a residual surface")
+NAMED(required, "rectangle_mm", rectangle, "Where the splines are defined.")
+REQUIRED(x_intervals, "Equal intervals along x.", integer(1, 1000))
+REQUIRED(y_intervals, "Equal intervals along y.", integer(1, 1000))
+NESTED(required, "scale_left", scale, left, "Correction of the left chain per mm of length.",
+       {"", -0.1, 0.1})
+NESTED(required, "scale_right", scale, right, "Correction of the right chain per mm of length.",
+       {"", -0.1, 0.1})
+NESTED(required, "coefficients_left_mm", coefficients_mm, left,
+       "Coefficients of cubic B-splines for the left chain, y varying fastest: "
+       "(x_intervals + 3) (y_intervals + 3) values.",
+       vector_of_numbers())
+NESTED(required, "coefficients_right_mm", coefficients_mm, right,
+       "Coefficients for the right chain, in the same order.", vector_of_numbers())
+    .check([](const Cursor& at, SplinePart& part) {
+      if (!at.clean()) return;
+      const Index size = (part.x_intervals + 3) * (part.y_intervals + 3);
+      const std::string expected = fmt::format("{} coefficients, as the intervals require", size);
+      const auto& [left, right] = part.coefficients_mm;
+      if (left.size() != size) at.child("coefficients_left_mm").expect(expected);
+      if (right.size() != size) at.child("coefficients_right_mm").expect(expected);
+    }) END_RECORD;
 
 void check_model_part(const Cursor& at, ModelPart& part) {
   if (!at.clean()) return;
@@ -96,17 +90,15 @@ void check_model_part(const Cursor& at, ModelPart& part) {
   }
 }
 
-auto axis_ends_record() {
-  RECORD(interp::AxisEnds, "the conditions at both ends of an axis")
-  REQUIRED(low, "At the smaller end.", choice(kEndConditions))
-  REQUIRED(high, "At the larger end.", choice(kEndConditions));
-}
+RECORD_OF(interp::AxisEnds, "the conditions at both ends of an axis")
+REQUIRED(low, "At the smaller end.", choice(kEndConditions))
+REQUIRED(high, "At the larger end.", choice(kEndConditions))
+END_RECORD;
 
-auto ends_record() {
-  RECORD(interp::TensorEnds, "the conditions at the edges")
-  REQUIRED(x, "Along x.", axis_ends_record())
-  REQUIRED(y, "Along y.", axis_ends_record());
-}
+RECORD_OF(interp::TensorEnds, "the conditions at the edges")
+REQUIRED(x, "Along x.")
+REQUIRED(y, "Along y.")
+END_RECORD;
 
 bool rises(const Numbers& values) {
   return std::adjacent_find(values.begin(), values.end(),
@@ -136,7 +128,7 @@ void check_nodes(const Cursor& at, const Surface& surface,
 
 /// The nodes, and the chains at each of them.
 template <class Surface>
-void node_keys(Record<Surface>& record, model::PerSide<MatrixXd> Surface::*chains) {
+void node_keys(Record<Surface>& record, PerSide<MatrixXd> Surface::*chains) {
   const auto values = matrix_of_numbers(kAnyNumber, 2);
   record
       .required("x_nodes_mm", "Nodes along x, increasing.", &Surface::x_nodes_mm,
@@ -151,18 +143,16 @@ void node_keys(Record<Surface>& record, model::PerSide<MatrixXd> Surface::*chain
 
 constexpr const char* kBetweenNodes = "Error of the splines between nodes, 1 sigma.";
 
-auto lattice_record() {
-  RECORD(LatticeResidual, "splines through the residuals at every node")
-  ALSO(node_keys, &LatticeResidual::values_mm)
-  REQUIRED(doubt_mm, "Uncertainty of the value at each node.", matrix_of_numbers(kNotNegative, 2))
-  REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
-      .check([](const Cursor& at, LatticeResidual& own) {
-        check_nodes(at, own,
-                    {{"left_mm", &own.values_mm.left},
-                     {"right_mm", &own.values_mm.right},
-                     {"doubt_mm", &own.doubt_mm}});
-      });
-}
+RECORD_OF(LatticeResidual, "splines through the residuals at every node")
+ALSO(node_keys, &LatticeResidual::values_mm)
+REQUIRED(doubt_mm, "Uncertainty of the value at each node.", matrix_of_numbers(kNotNegative, 2))
+REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
+    .check([](const Cursor& at, LatticeResidual& own) {
+      check_nodes(at, own,
+                  {{"left_mm", &own.values_mm.left},
+                   {"right_mm", &own.values_mm.right},
+                   {"doubt_mm", &own.doubt_mm}});
+    }) END_RECORD;
 
 double seven_digits(double value) { return number_of(fmt::format("{:.7g}", value)).value(); }
 
@@ -172,20 +162,19 @@ auto model_part_record() {
   REQUIRED(sheet, "Placement of the marks' sheet.", sheet_placement_record())
   NAMED(required, "unknown_settings", settings,
         "The settings that were calibrated, in the order of the covariance.", list(setting_word()))
-  REQUIRED(residual, "Correction added to the machine's lengths.", spline_record())
+  REQUIRED(residual, "Correction added to the machine's lengths.")
   REQUIRED(covariance_factor,
            "Triangular root of the covariance of settings, scales and coefficients; lower "
            "triangle, row by row.",
            list(list(kAnyNumber, 1)))
-  OPTIONAL(lattice, "For a full grid of marks: splines through the residuals at every node.",
-           lattice_record())
+  OPTIONAL(lattice, "For a full grid of marks: splines through the residuals at every node.")
       .check(check_model_part);
 }
 
 auto direct_surface_record() {
   RECORD(DirectSurface, "splines through the lengths")
   ALSO(node_keys, &DirectSurface::lengths_mm)
-  REQUIRED(ends, "End conditions of the splines.", ends_record())
+  REQUIRED(ends, "End conditions of the splines.")
   REQUIRED(interpolation_sigma_mm, kBetweenNodes, kNotNegative)
       .check([](const Cursor& at, DirectSurface& own) {
         check_nodes(at, own,
@@ -198,8 +187,8 @@ ModelPart part_of(const ModelSurface& surface) {
   ModelPart part{surface.machine,
                  surface.sheet,
                  surface.settings,
-                 {basis.rectangle(), static_cast<int>(basis.columns_x()) - 3,
-                  static_cast<int>(basis.columns_y()) - 3, scale, coefficients},
+                 {basis.rectangle(), as_int(basis.columns_x()) - 3, as_int(basis.columns_y()) - 3,
+                  scale, coefficients},
                  {},
                  surface.lattice};
   for (Index i = 0; i < surface.covariance_factor.rows(); ++i) {
@@ -217,7 +206,7 @@ ModelSurface surface_of(const ModelPart& part) {
       part.machine, part.sheet,    {basis, own.scale, own.coefficients_mm},
       columns,      part.settings, MatrixXd::Zero(columns.total(), columns.total()),
       part.lattice};
-  for (std::size_t i = 0; i < part.covariance_factor.size(); ++i) {
+  for (const auto i : each_index(part.covariance_factor)) {
     const Numbers& row = part.covariance_factor[i];
     surface.covariance_factor.row(as_index(i)).head(as_index(row.size())) =
         Eigen::Map<const RowVectorXd>(row.data(), as_index(row.size()));
@@ -243,14 +232,11 @@ void add_surface(Record<MapContents>& record) {
             const auto* own = surface_in<ModelSurface>(map);
             return own != nullptr ? std::optional(part_of(*own)) : std::nullopt;
           })
-      .computed(
-          "direct", "Splines through the lengths, without a machine; or on_machine.", false,
-          object(direct_surface_record()),
-          [](MapContents& map, const DirectSurface& surface) { map.surface = surface; },
-          [](const MapContents& map) {
-            const auto* own = surface_in<DirectSurface>(map);
-            return own != nullptr ? std::optional(*own) : std::nullopt;
-          });
+      .computed("direct", "Splines through the lengths, without a machine; or on_machine.", false,
+                object(direct_surface_record()), &MapContents::surface, [](const MapContents& map) {
+                  const auto* own = surface_in<DirectSurface>(map);
+                  return own != nullptr ? std::optional(*own) : std::nullopt;
+                });
 }
 
 }  // namespace chaintrue::grid::files

@@ -36,7 +36,7 @@ class Defines {
     for (std::string line; std::getline(lines, line);) {
       const std::size_t first = ++number;
       for (std::string next; trimmed(line).ends_with('\\') && std::getline(lines, next); ++number)
-        line.replace(line.rfind('\\'), std::string::npos, next);
+        line.replace(line.rfind('\\'), npos, next);
       const std::string place = line_place(first);
       take(line, place);
       if (branches_.size() <= kMostConditions && defined_.size() <= kMostNames) continue;
@@ -62,11 +62,8 @@ class Defines {
       return;
     }
     value = value.substr(1, value.find('}') - 1);
-    for (std::size_t i = 0; !value.empty(); ++i) {
-      const std::size_t end = value.find(',');
-      evaluate(value.substr(0, end), name, fmt::format("{}/{}", name, i), *own, texts);
-      value.remove_prefix(end == std::string_view::npos ? value.size() : end + 1);
-    }
+    for (std::size_t i = 0; !value.empty(); ++i)
+      evaluate(take_until(value, ','), name, fmt::format("{}/{}", name, i), *own, texts);
   }
 
  private:
@@ -107,8 +104,7 @@ class Defines {
   void open(Truth holds) { branches_.push_back({holds, holds}); }
 
   void define(const std::string& name, SettingText own, bool is_undefined) {
-    const bool may_hold =
-        none_of(branches_, [](const Branch& branch) { return branch.holds == Truth(false); });
+    const bool may_hold = none_of(branches_, having(&Branch::holds, Truth(false)));
     Definition& all = defined_[name];
     std::vector<SettingText>& texts = may_hold ? all.in_force : all.others;
     if (is_undefined) {
@@ -218,8 +214,7 @@ std::string without_comments(std::string_view text) {
   return code;
 }
 
-SettingTexts marlin_texts(const std::string& text, const std::vector<std::string>& names,
-                          Problems& problems) {
+SettingTexts marlin_texts(const std::string& text, const Words& names, Problems& problems) {
   Defines defines(text, problems);
   SettingTexts texts;
   for (const std::string& name : names) defines.read(name, texts);

@@ -121,7 +121,7 @@ class CFormula {
       ++end;
     std::string_view digits = rest.substr(0, end);
     code_.rest = rest.substr(end);
-    const bool is_whole = digits.find_first_of(".eE") == std::string_view::npos;
+    const bool is_whole = digits.find_first_of(".eE") == npos;
     digits = digits.substr(0, digits.find_last_not_of("fFlLuU") + 1);
     const auto value = number_of(digits);
     is_formula_ = value && is_formula_;

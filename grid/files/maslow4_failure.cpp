@@ -15,9 +15,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Belt;
-using model::kBelts;
-
 /// The firmware's own limit for four readings of a belt.
 constexpr double kReadingsAgreeMm = 2.5;
 /// Tolerance of a whole number of turns of the encoder: a belt's scatter.
@@ -25,10 +22,6 @@ constexpr double kWholeTurnMm = 3.0;
 /// The tolerance against commanded places: anchors in force are off by a centimetre, and holding
 /// belts stretch.
 constexpr double kWholeTurnOfCommandsMm = 10.0;
-
-bool has(std::string_view line, std::string_view word) {
-  return line.find(word) != std::string_view::npos;
-}
 
 double spread(const std::vector<double>& readings_mm) {
   if (readings_mm.size() < 2) return 0.0;
@@ -67,7 +60,7 @@ std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   if (most_mm <= 0.0) return "";
   const std::string text =
       fmt::format(" At waypoint {} the readings of the {} belt are {:.1f} mm apart",
-                  stopped.last_measured + 1, model::words(worst), most_mm);
+                  stopped.last_measured + 1, words(worst), most_mm);
   if (const int turns = whole_turns(most_mm, turn_mm)) {
     return fmt::format(
         "{}, {}. Probable cause: an encoder that lost turns. Check its magnet and its cable, "
@@ -111,7 +104,7 @@ std::string shown_by_commands(const MeasuredBelts& belts) {
       " The {} belt reads {:.0f} mm {} than the settings predict for the commanded place, the "
       "others "
       "agree. Probable cause: {}. Retract it, extend it again and measure again.",
-      model::words(worst), std::abs(excess_mm), excess_mm > 0.0 ? "longer" : "shorter",
+      words(worst), std::abs(excess_mm), excess_mm > 0.0 ? "longer" : "shorter",
       turns > 0 ? fmt::format("{}, lost or gained,", turns_in_words(turns))
       : excess_mm > 0.0
           ? "a slack belt, or an anchor nearer than in the settings,"

@@ -40,8 +40,8 @@ void check_choice(const Maslow4Options& options, const std::vector<LoggedRun>& r
   }
 }
 
-void choose_lengths(const Maslow4Options& options, bool is_list, model::BeltMachine& machine,
-                    std::vector<std::string>& assumed) {
+void choose_lengths(const Maslow4Options& options, bool is_list, BeltMachine& machine,
+                    Words& assumed) {
   if (options.lengths) {
     machine.lengths = *options.lengths;
     return;
@@ -72,7 +72,7 @@ std::vector<LogPart> log_parts_of(const std::string& text, const std::string& op
 namespace {
 
 /// No readings: describes a log, or why the run in it failed.
-void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
+void report_nothing(const ScannedLog& log, const BeltMachine& machine, Problems& problems) {
   if (log.refused) {
     problems.explain(line_place(log.refused->line), ProblemKind::unexpected,
                      words_of(*log.refused));
@@ -97,7 +97,7 @@ PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs, PointRange wanted,
                         Maslow4Import& result, Problems& problems) {
   PlacesOfLog places;
   std::vector<std::pair<std::size_t, PointRange>> parts;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
+  for (const auto i : each_index(runs)) {
     const PointRange own = result.runs[i].points;
     if (own.last < wanted.first || own.first > wanted.last) continue;
     if (parts.empty()) result.taken = i;
@@ -112,8 +112,7 @@ PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs, PointRange wanted,
 }
 
 /// The data of these belts as a whole.
-void check_all(MeasuredBelts& belts, std::vector<std::size_t>& lines, Maslow4Import& result,
-               Problems& problems) {
+void check_all(MeasuredBelts& belts, Indices& lines, Maslow4Import& result, Problems& problems) {
   const BeltPlaces places{
       "the readings",
       [&lines](std::size_t index, std::string_view) { return line_place(lines[index]); },

@@ -60,7 +60,7 @@ struct Maslow4Options {
   std::string settings_file = "maslow.yaml";
   LogPart part;
   std::optional<model::BeltLengths> lengths;
-  std::optional<model::Orientation> orientation;
+  std::optional<Orientation> orientation;
 };
 
 /// A run of the machine's own calibration.

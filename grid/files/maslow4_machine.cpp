@@ -8,15 +8,10 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Belt;
-using model::BeltMachine;
-using model::kBelts;
-using model::Orientation;
-
 /// Applies settings of maslow.yaml; missing ones keep their values and are noted.
 class Settings {
  public:
-  Settings(const Maslow4Options& options, std::vector<std::string>& assumed)
+  Settings(const Maslow4Options& options, Words& assumed)
       : problems_(options.settings_file),
         reader_(options.settings ? yaml_texts(*options.settings, problems_) : SettingTexts{},
                 problems_),
@@ -27,7 +22,7 @@ class Settings {
   }
 
   /// The value of the first of these keys that is present; false if none is.
-  bool take(const std::vector<std::string>& keys, double& value) {
+  bool take(const Words& keys, double& value) {
     constexpr Range kSetting{"", -1e6, 1e6};
     for (const std::string& key : keys) {
       if (reader_.look(key) == nullptr) continue;
@@ -37,7 +32,7 @@ class Settings {
     return false;
   }
 
-  void take_or_assume(const std::vector<std::string>& keys, double& value, std::string_view what) {
+  void take_or_assume(const Words& keys, double& value, std::string_view what) {
     if (!take(keys, value)) assumed_.push_back(fmt::format("{} of {:g} mm", what, value));
   }
 
@@ -47,11 +42,11 @@ class Settings {
  private:
   Problems problems_;
   SettingReader reader_;
-  std::vector<std::string>& assumed_;
+  Words& assumed_;
 };
 
 /// The keys of a setting: today's name, and that of releases before July 2025.
-std::vector<std::string> keys_of(const std::string& key) {
+Words keys_of(const std::string& key) {
   return {"kinematics/MaslowKinematics/" + key, "Maslow_" + key};
 }
 
@@ -66,7 +61,7 @@ void take_names(Settings& settings, BeltMachine& machine) {
   if (!has(0) && has(1)) machine.setting_names = model::SettingNames::top_level;
 }
 
-void take_anchors(Settings& settings, BeltMachine& machine, std::vector<std::string>& assumed) {
+void take_anchors(Settings& settings, BeltMachine& machine, Words& assumed) {
   int known = 0;
   std::string heights;
   bool heights_known = true;
@@ -88,8 +83,7 @@ void take_anchors(Settings& settings, BeltMachine& machine, std::vector<std::str
   if (!heights_known) assumed.push_back(fmt::format("heights of the anchors of {} mm", heights));
 }
 
-BeltMachine machine_of(const Maslow4Options& options, Settings& settings,
-                       std::vector<std::string>& assumed) {
+BeltMachine machine_of(const Maslow4Options& options, Settings& settings, Words& assumed) {
   BeltMachine machine;
   take_names(settings, machine);
   take_anchors(settings, machine, assumed);
@@ -131,7 +125,7 @@ void take_machine(const Maslow4Options& options, Maslow4Import& result, Problems
   settings.reader().warn_of_others("describes the anchors of the belts");
   problems.add_warnings(settings.problems().warnings());
   problems.add_all(settings.problems().list());
-  problems.add_all("the settings' ", model::problems_of(result.belts.machine));
+  problems.add_all("the settings' ", problems_of(result.belts.machine));
 }
 
 }  // namespace chaintrue::grid::files

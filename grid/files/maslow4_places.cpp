@@ -18,11 +18,10 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// Medians of single readings; empty if a belt has none or they disagree.
-std::optional<model::PerBelt<double>> agreed(
-    const model::PerBelt<std::vector<double>>& readings_mm) {
+std::optional<PerBelt<double>> agreed(const PerBelt<std::vector<double>>& readings_mm) {
   constexpr double kAgreeMm = 10.0;
-  model::PerBelt<double> lengths_mm;
-  for (const model::Belt belt : model::kBelts) {
+  PerBelt<double> lengths_mm;
+  for (const Belt belt : kBelts) {
     const auto& own = readings_mm[belt];
     if (own.empty()) return std::nullopt;
     const auto [least, most] = minmax_element(own);
@@ -35,8 +34,8 @@ std::optional<model::PerBelt<double>> agreed(
 /// The waypoints are numbered as the places are: no entry of the list is missing without a trace.
 bool are_commands_known(const ScannedRun& run) {
   if (run.list_is_short) return false;
-  for (std::size_t i = 0; i < run.points.size(); ++i) {
-    if (!run.commanded.contains(static_cast<int>(i))) return false;
+  for (const auto i : each_index(run.points)) {
+    if (!run.commanded.contains(as_int(i))) return false;
   }
   return true;
 }
@@ -88,9 +87,9 @@ struct LeftOutPlace {
 
 /// Leaves these out and reports them.
 void leave_out(const std::vector<LeftOutPlace>& places, std::string_view rest, MeasuredBelts& belts,
-               std::vector<std::size_t>& lines, Problems& problems) {
+               Indices& lines, Problems& problems) {
   std::vector<Warning> left_out;
-  std::vector<std::size_t> kept = numbers_below(lines.size());
+  Indices kept = numbers_below(lines.size());
   for (const LeftOutPlace& own : places) {
     std::erase(kept, own.index);
     left_out.push_back({problems.file(), line_place(lines[own.index]),
@@ -102,15 +101,14 @@ void leave_out(const std::vector<LeftOutPlace>& places, std::string_view rest, M
 }
 
 /// Runs with places in two frames are split.
-void part_frames(const model::BeltMachine& machine, std::vector<ScannedRun>& runs,
-                 Problems& problems) {
+void part_frames(const BeltMachine& machine, std::vector<ScannedRun>& runs, Problems& problems) {
   std::vector<ScannedRun> parted;
   for (ScannedRun& run : runs) {
     MeasuredBelts belts;
     belts.machine = machine;
     belts.machine.anchors_known = false;
-    std::vector<std::size_t> slots;
-    for (std::size_t i = 0; i < run.points.size(); ++i) {
+    Indices slots;
+    for (const auto i : each_index(run.points)) {
       if (!run.points[i].lengths_mm) continue;
       belts.points.push_back({.lengths_mm = *run.points[i].lengths_mm});
       slots.push_back(i);
@@ -139,24 +137,24 @@ void part_frames(const model::BeltMachine& machine, std::vector<ScannedRun>& run
 
 }  // namespace
 
-void take_places(const ScannedRun& run, PointRange within, model::Orientation orientation,
+void take_places(const ScannedRun& run, PointRange within, Orientation orientation,
                  PlacesOfLog& places) {
   const bool commands_known = are_commands_known(run);
   const int first_order = places.points.empty() ? 0 : *places.points.back().order + 1;
   for (std::size_t i = within.first; i <= within.last; ++i) {
     if (!run.points[i].lengths_mm) continue;
-    const int waypoint = static_cast<int>(i);
+    const int waypoint = as_int(i);
     BeltPoint point;
     point.lengths_mm = *run.points[i].lengths_mm;
-    point.order = first_order + static_cast<int>(i - within.first);
+    point.order = first_order + as_int(i - within.first);
     if (run.pull_ma) point.pull = BeltPull{*run.pull_ma, BeltPull::Unit::milliampere};
     const auto commanded = run.commanded.find(waypoint);
     if (commanded != run.commanded.end() && !run.list_is_short) point.commanded = commanded->second;
     const auto thrown_away = run.thrown_away_mm.find(waypoint);
     if (thrown_away != run.thrown_away_mm.end() && !run.points[i].from_single_readings)
       point.thrown_away_mm = thrown_away->second;
-    if (orientation == model::Orientation::flat && commands_known) {
-      const model::BedPoint before = run.commanded.at(std::max(waypoint - 1, 0));
+    if (orientation == Orientation::flat && commands_known) {
+      const BedPoint before = run.commanded.at(std::max(waypoint - 1, 0));
       point.pulled = pulled_after(orientation, before, *point.commanded, i);
     }
     places.points.push_back(std::move(point));
@@ -186,7 +184,7 @@ void report_unreadable(const ScannedRun& run, PointRange within, std::size_t rea
   }
 }
 
-void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems) {
+void leave_out_copies(MeasuredBelts& belts, Indices& lines, Problems& problems) {
   if (holds_repeats(belts)) return;
   std::vector<LeftOutPlace> copies;
   for (const auto& [point, first] : copies_of(belts.points)) {
@@ -197,7 +195,7 @@ void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pro
   leave_out(copies, "further readings are copies and left out", belts, lines, problems);
 }
 
-void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems) {
+void leave_out_nowhere(MeasuredBelts& belts, Indices& lines, Problems& problems) {
   if (belts.points.size() <= kFewestBeltPoints || belts.points.size() > kMostBeltPoints) return;
   const auto frame = frame_of_lengths(belts);
   if (!frame) return;
@@ -212,8 +210,7 @@ void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Pr
   leave_out(nowhere, "further readings that do not meet are left out", belts, lines, problems);
 }
 
-std::vector<ScannedRun> runs_of(ScannedLog& log, const model::BeltMachine& machine,
-                                Problems& problems) {
+std::vector<ScannedRun> runs_of(ScannedLog& log, const BeltMachine& machine, Problems& problems) {
   std::vector<ScannedRun> runs = std::move(log.runs);
   for (ScannedRun& run : runs) rebuild_from_singles(run, problems);
   std::erase_if(runs, [](const ScannedRun& run) { return run.points.empty(); });

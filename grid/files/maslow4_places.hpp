@@ -19,10 +19,9 @@ struct PlacesOfLog {
 };
 
 /// The runs with places, each of one frame.
-std::vector<ScannedRun> runs_of(ScannedLog& log, const model::BeltMachine& machine,
-                                Problems& problems);
+std::vector<ScannedRun> runs_of(ScannedLog& log, const BeltMachine& machine, Problems& problems);
 /// Appends the readable places of a run, within the range of its points.
-void take_places(const ScannedRun& run, PointRange within, model::Orientation orientation,
+void take_places(const ScannedRun& run, PointRange within, Orientation orientation,
                  PlacesOfLog& places);
 /// Reports unreadable readings, as problems if fewer than kFewestBeltPoints are readable.
 void report_unreadable(const ScannedRun& run, PointRange within, std::size_t readable,

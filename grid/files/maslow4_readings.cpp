@@ -18,9 +18,6 @@ constexpr std::size_t kMostLines = 3;
 
 }  // namespace
 
-using model::Belt;
-using model::kBelts;
-
 void ReadingReader::begin(std::size_t number, std::size_t column) {
   open_ = true;
   text_.clear();
@@ -37,7 +34,7 @@ ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t numb
   };
   outside_.clear();
   if (open_) ++lines_;
-  for (std::size_t at = 0; at < line.size(); ++at) {
+  for (const auto at : each_index(line)) {
     const char c = line[at];
     if (open_ && (c == '}' || c == '{' || c == ']')) {
       open_ = false;
@@ -73,24 +70,20 @@ std::optional<ScannedReading> ReadingReader::give_up() {
 std::optional<ScannedReading> ReadingReader::read(const std::string& text, bool is_closed) const {
   Problems problems(file_);
   const std::string place = line_and_column(line_, column_);
-  model::PerBelt<double> lengths_mm;
-  model::PerBelt<bool> known;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const std::string_view part = std::string_view(text).substr(begin, comma - begin);
-    begin = comma + 1;
-    const std::size_t colon = part.find(':');
-    if (colon == std::string_view::npos) continue;
-    const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
-    if (!belt) continue;
+  PerBelt<double> lengths_mm;
+  PerBelt<bool> known;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view part = take_until(rest, ',');
+    std::string_view length = part;
+    const auto belt = model::belt_of(unquoted(take_until(length, ':')));
+    if (!belt || !has(part, ':')) continue;
     if (known[*belt]) {
       problems.add(place, std::string(unquoted(part)), ProblemKind::repeated_value,
                    "each belt once in a reading");
       continue;
     }
     known[*belt] = true;
-    const auto value =
-        checked_number(unquoted(part.substr(colon + 1)), place, name(*belt), kLengthMm, problems);
+    const auto value = checked_number(unquoted(length), place, name(*belt), kLengthMm, problems);
     if (value) lengths_mm[*belt] = *value;
   }
   // Objects of other programs.

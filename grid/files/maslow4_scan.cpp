@@ -12,8 +12,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::Belt;
-using Singles = model::PerBelt<std::vector<double>>;
+using Singles = PerBelt<std::vector<double>>;
 
 /// Unreadable entries match anything.
 bool same(const ScannedReading& a, const ScannedReading& b) {
@@ -61,13 +60,13 @@ class Scanner {
   void take_line(std::string_view line) {
     const std::size_t comment = line.find("//");
     const std::size_t brace = line.find_first_of("{}");
-    const bool is_list = line.find("CLBM:") != std::string_view::npos;
+    const bool is_list = has(line, "CLBM:");
     if (is_list) open_list();
     if (reader_.is_open() && !is_list) {
       if (is_other_output(line)) return take_message(line);
       return take_braces(line.substr(0, comment), false);
     }
-    if (brace == std::string_view::npos || comment < brace) {
+    if (brace == npos || comment < brace) {
       if (is_heading(line)) {
         close_list();
         begin_run(std::string(unquoted(line)));
@@ -133,7 +132,7 @@ class Scanner {
     join_longer_list();
     std::vector<ScannedReading>& points = run().points;
     if (begins_equally(points, list_)) {
-      for (std::size_t i = 0; i < list_.size(); ++i) {
+      for (const auto i : each_index(list_)) {
         if (i >= points.size()) {
           points.push_back(list_[i]);
         } else if (!points[i].lengths_mm && list_[i].lengths_mm) {
@@ -147,14 +146,13 @@ class Scanner {
       run().points = list_;
     }
     run().is_list = true;
-    if (list_.size() > 1)
-      run().list_is_short = static_cast<int>(list_.size()) < run().last_measured + 1;
+    if (list_.size() > 1) run().list_is_short = as_int(list_.size()) < run().last_measured + 1;
   }
 
   void take_message(std::string_view line) {
-    if (line.find("Waypoints [") != std::string_view::npos) {
+    if (has(line, "Waypoints [")) {
       close_list();
-      if (line.find("Waypoints [0-") != std::string_view::npos) begin_run("");
+      if (has(line, "Waypoints [0-")) begin_run("");
       take_waypoints(line);
     } else if (const auto measured = waypoint_of(number_after(line, "Measured waypoint "))) {
       if (*measured == 0 && !run().points.empty()) begin_run("");
@@ -162,7 +160,7 @@ class Scanner {
       note_thrown_away(*measured);
       ended_.reset();
     } else if (const auto at = waypoint_of(number_after(line, "Waypoint "));
-               at && line.find("coordinates:") != std::string_view::npos) {
+               at && has(line, "coordinates:")) {
       const auto x = number_after(line, "X=");
       const auto y = number_after(line, "Y=");
       if (x && y) run().commanded[*at] = {*x, *y};
@@ -186,15 +184,13 @@ class Scanner {
 
   /// `(0:-9.0,10.4) (1:141.0,10.4)`
   void take_waypoints(std::string_view line) {
-    for (std::size_t at = line.find('('); at != std::string_view::npos;
-         at = line.find('(', at + 1)) {
+    for (std::size_t at = line.find('('); at != npos; at = line.find('(', at + 1)) {
       const std::size_t end = line.find(')', at);
-      if (end == std::string_view::npos) return;
+      if (end == npos) return;
       const std::string_view entry = line.substr(at + 1, end - at - 1);
       const std::size_t colon = entry.find(':');
       const std::size_t comma = entry.find(',');
-      if (colon == std::string_view::npos || comma == std::string_view::npos || comma < colon)
-        continue;
+      if (colon == npos || comma == npos || comma < colon) continue;
       const auto waypoint = waypoint_of(number_of(unquoted(entry.substr(0, colon))));
       const auto x = number_of(unquoted(entry.substr(colon + 1, comma - colon - 1)));
       const auto y = number_of(unquoted(entry.substr(comma + 1)));
@@ -239,7 +235,7 @@ class Scanner {
     close_list();
     if (!runs_.empty()) {
       const ScannedRun& last = runs_.back();
-      const auto measured = std::max(last.last_measured, static_cast<int>(last.points.size()) - 1);
+      const auto measured = std::max(last.last_measured, as_int(last.points.size()) - 1);
       // A log without an end gives the reason in its last lines; measured and announced waypoints
       // show the rest.
       if (!ended_ && last.last_measured >= 0 && measured < last.last_announced)

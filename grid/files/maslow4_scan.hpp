@@ -42,7 +42,7 @@ struct RunStopped {
   int last_measured = -1;
   int last_announced = -1;
   /// Single readings of the last attempt at the waypoint where it stopped.
-  model::PerBelt<std::vector<double>> readings_mm{};
+  PerBelt<std::vector<double>> readings_mm{};
 };
 
 /// A setting, or a whole file of settings, that the controller rejected: it uses others.
@@ -65,7 +65,7 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts);
 // grid/files.
 
 struct ScannedReading {
-  std::optional<model::PerBelt<double>> lengths_mm;  ///< empty: not measured, or not readable
+  std::optional<PerBelt<double>> lengths_mm;  ///< empty: not measured, or not readable
   std::size_t line = 0;
   /// The reasons why it is not readable, each with its place in the file.
   std::vector<InputProblem> problems;
@@ -106,10 +106,10 @@ struct ScannedRun {
   bool is_list = false;  ///< printed as CLBM:[...]
   /// By waypoint; those that are not readable keep their place.
   std::vector<ScannedReading> points;
-  std::map<int, model::BedPoint> commanded;  ///< by waypoint
-  std::map<int, model::PerBelt<std::vector<double>>> thrown_away_mm;
+  std::map<int, BedPoint> commanded;  ///< by waypoint
+  std::map<int, PerBelt<std::vector<double>>> thrown_away_mm;
   /// Single readings of the last attempt at a waypoint.
-  std::map<int, model::PerBelt<std::vector<double>>> last_attempt_mm;
+  std::map<int, PerBelt<std::vector<double>>> last_attempt_mm;
   std::optional<FirmwareFit> fit;
   std::optional<double> pull_ma;  ///< the motors' current, where the log prints the setting before
   int last_measured = -1;         ///< of "Measured waypoint N"; -1: the log has none

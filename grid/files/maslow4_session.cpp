@@ -80,7 +80,7 @@ std::vector<BeltPull> pulls_of(const std::string& text, const std::string& optio
 Maslow4Import one_session(std::vector<Maslow4Import> runs, const std::vector<BeltPull>& pulls) {
   if (runs.empty()) throw std::logic_error("a session of no runs");
   check_all_have_pulls(runs, pulls.size());
-  for (std::size_t i = 0; i < pulls.size(); ++i) give_pull(pulls[i], runs[i].belts);
+  for (const auto i : each_index(pulls)) give_pull(pulls[i], runs[i].belts);
   Maslow4Import session = std::move(runs.front());
   const bool has_pull = !session.belts.points.empty() && session.belts.points.front().pull;
   if (runs.size() == 1 && !has_pull && session.settings_pull)

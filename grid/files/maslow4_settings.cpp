@@ -12,9 +12,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using diagnosis::Cause;
 using diagnosis::Verdict;
-using model::BeltMachine;
 
 /// Commands are multiplied by this, and the result is paid out in the belts' own millimetres.
 double scale_of(const BeltScale& scale) { return 1.0 / scale.factor; }
@@ -26,12 +24,12 @@ bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
          std::abs(machine.scale_y - scale_of(scale)) < detectable;
 }
 
-void add_line(Maslow4Settings& settings, const BeltMachine& machine, model::Belt belt, char axis,
+void add_line(Maslow4Settings& settings, const BeltMachine& machine, Belt belt, char axis,
               double value) {
   const bool is_top_level = machine.setting_names == model::SettingNames::top_level;
-  fmt::format_to(std::back_inserter(settings.text), "$/{}{}{}={:.2f}\n",
-                 is_top_level ? "Maslow_" : "kinematics/MaslowKinematics/", name(belt), axis,
-                 value);
+  settings.text +=
+      fmt::format("$/{}{}{}={:.2f}\n", is_top_level ? "Maslow_" : "kinematics/MaslowKinematics/",
+                  name(belt), axis, value);
 }
 
 void add_scale(const BeltMachine& machine, const std::optional<BeltScale>& found,
@@ -52,13 +50,13 @@ void add_scale(const BeltMachine& machine, const std::optional<BeltScale>& found
     return;
   }
   for (const char axis : {'X', 'Y'}) {
-    fmt::format_to(std::back_inserter(settings.text), "$/Maslow_Scale_{}={:.5f}\n", axis, scale);
+    settings.text += fmt::format("$/Maslow_Scale_{}={:.5f}\n", axis, scale);
   }
 }
 
 Maslow4Settings anchors_of(const BeltMachine& machine) {
   Maslow4Settings settings;
-  for (const model::Belt belt : model::kBelts) {
+  for (const Belt belt : kBelts) {
     add_line(settings, machine, belt, 'X', machine.anchors[belt].x_mm);
     add_line(settings, machine, belt, 'Y', machine.anchors[belt].y_mm);
   }
@@ -66,7 +64,8 @@ Maslow4Settings anchors_of(const BeltMachine& machine) {
 }
 
 /// A height is a setting of the machine; other effects cannot be removed by a setting.
-void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& settings) {
+void add_cause(const diagnosis::Cause& cause, const BeltMachine& machine,
+               Maslow4Settings& settings) {
   const auto belt = model::belt_of(name(cause.cause.side));
   if (cause.cause.effect->id == "anchor_height" && belt && !cause.parameters.empty()) {
     add_line(settings, machine, *belt, 'Z',
@@ -97,7 +96,7 @@ Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found) {
   const BeltMachine& machine = found.belts->machine;
   Maslow4Settings settings = anchors_of(machine);
   if (found.verdict == Verdict::named || found.verdict == Verdict::several_causes) {
-    for (const Cause& cause : found.causes) add_cause(cause, machine, settings);
+    for (const diagnosis::Cause& cause : found.causes) add_cause(cause, machine, settings);
   } else if (found.verdict == Verdict::named_set) {
     settings.remarks.emplace_back(
         "Several causes are possible; the anchors are for the most probable one. First find out "

@@ -44,9 +44,8 @@ std::string cleaned(std::string_view line) {
 /// A message without readings that its line does not end. The list of waypoints is the longest.
 bool is_message_without_end(std::string_view line) {
   constexpr std::size_t kLongestMessage = 8000;
-  return line.starts_with("[MSG") && line.find('{') == std::string_view::npos &&
-         line.find("CLBM") == std::string_view::npos && line.size() < kLongestMessage &&
-         count_equal(line, '[') > count_equal(line, ']');
+  return line.starts_with("[MSG") && !has(line, '{') && !has(line, "CLBM") &&
+         line.size() < kLongestMessage && count_equal(line, '[') > count_equal(line, ']');
 }
 
 }  // namespace
@@ -54,7 +53,7 @@ bool is_message_without_end(std::string_view line) {
 std::string_view unquoted(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n\"'";
   const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
+  if (first == npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
@@ -66,7 +65,7 @@ bool is_other_output(std::string_view line) {
     return true;
   // "[MSG:INFO: ...]", "[G92:0,0]", "[ESP400]", but not "[{bl:.."
   return text.size() > 1 && text.front() == '[' && is_letter(text[1]) && text[1] <= 'Z' &&
-         text.find('{') == std::string_view::npos;
+         !has(text, '{');
 }
 
 bool is_heading(std::string_view line) {
@@ -78,21 +77,18 @@ bool is_heading(std::string_view line) {
   if (word != "run" || at >= line.size() || line[at] != ' ') return false;
   const std::string_view rest = unquoted(line.substr(at));
   constexpr std::size_t kLongestName = 12;
-  return !rest.empty() && rest.find(' ') == std::string_view::npos && rest.size() <= kLongestName;
+  return !rest.empty() && !has(rest, ' ') && rest.size() <= kLongestName;
 }
 
 std::vector<LogLine> log_lines(const std::string& text) {
   std::vector<LogLine> lines;
   std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string line = cleaned(std::string_view(text).substr(begin, end - begin));
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string line = cleaned(take_until(rest, '\n'));
     ++number;
-    begin = end + 1;
     const bool goes_on = !lines.empty() && !line.empty() && lines.back().number + 1 == number &&
                          is_message_without_end(lines.back().text) && !is_other_output(line) &&
-                         !is_heading(line) && line.find('{') == std::string::npos &&
-                         line.find("CLBM") == std::string::npos;
+                         !is_heading(line) && !has(line, '{') && !has(line, "CLBM");
     if (goes_on) {
       lines.back().text += line;
     } else {
@@ -104,11 +100,11 @@ std::vector<LogLine> log_lines(const std::string& text) {
 
 std::optional<double> number_after(std::string_view line, std::string_view word) {
   const std::size_t at = line.find(word);
-  if (at == std::string_view::npos) return std::nullopt;
+  if (at == npos) return std::nullopt;
   std::size_t from = at + word.size();
   while (from < line.size() && line[from] == ' ') ++from;
   const std::size_t end = line.find_first_not_of("+-.0123456789eE", from);
-  return number_of(line.substr(from, end == std::string_view::npos ? end : end - from));
+  return number_of(line.substr(from, end == npos ? end : end - from));
 }
 
 std::optional<int> waypoint_of(std::optional<double> number) {

@@ -18,7 +18,7 @@ PlaceOf place_in_json(std::string list) {
   };
 }
 
-void fetch_machine(std::optional<model::Machine>& machine, const std::string& machine_file,
+void fetch_machine(std::optional<Machine>& machine, const std::string& machine_file,
                    const MeasuredOptions& options, Problems& problems) {
   if (options.machine) {
     machine = options.machine;
@@ -36,12 +36,11 @@ void fetch_machine(std::optional<model::Machine>& machine, const std::string& ma
   }
 }
 
-std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
-                                   std::string_view entries, const std::string& to_write,
-                                   const std::string& place, Problems& problems) {
-  std::vector<std::size_t> kept;
-  std::vector<std::string> blank;
-  for (std::size_t i = 0; i < blank_names.size(); ++i) {
+Indices filled_in(const Words& blank_names, std::string_view entries, const std::string& to_write,
+                  const std::string& place, Problems& problems) {
+  Indices kept;
+  Words blank;
+  for (const auto i : each_index(blank_names)) {
     if (blank_names[i].empty()) {
       kept.push_back(i);
     } else {
@@ -59,8 +58,7 @@ std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
   return kept;
 }
 
-std::string how_many(const std::vector<std::string>& named, std::size_t count,
-                     std::string_view entries) {
+std::string how_many(const Words& named, std::size_t count, std::string_view entries) {
   return named.size() == count
              ? fmt::format("all {} {}", count, entries)
              : fmt::format("{} of {} {} ({})", named.size(), count, entries, joined(named));
@@ -68,11 +66,10 @@ std::string how_many(const std::vector<std::string>& named, std::size_t count,
 
 void check_orders(const std::vector<StatedOrder>& orders, const PlaceOf& place_of,
                   Problems& problems) {
-  const std::size_t with_order =
-      count_where(orders, [](const StatedOrder& one) { return one.order.has_value(); });
+  const std::size_t with_order = count_where(orders, &StatedOrder::order);
   if (with_order == 0) return;
   std::map<int, std::size_t> first_with;
-  for (std::size_t i = 0; i < orders.size(); ++i) {
+  for (const auto i : each_index(orders)) {
     if (orders[i].is_spoilt) continue;
     if (!orders[i].order) {
       problems.add(

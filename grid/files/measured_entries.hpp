@@ -26,7 +26,7 @@ PlaceOf place_in_json(std::string list);
 
 /// Fills in the machine: that of the options instead of any that the file states; otherwise its own, that of
 /// the file that it names, or the options' other one. Problems and warnings of that file are added.
-void fetch_machine(std::optional<model::Machine>& machine, const std::string& machine_file,
+void fetch_machine(std::optional<Machine>& machine, const std::string& machine_file,
                    const MeasuredOptions& options, Problems& problems);
 
 /// The other entries are dropped.

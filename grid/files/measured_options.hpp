@@ -23,9 +23,9 @@ struct TapeOptions {
 
 struct MeasuredOptions {
   /// Replaces the machine of the file.
-  std::optional<model::Machine> machine = std::nullopt;
+  std::optional<Machine> machine = std::nullopt;
   /// Used for a file that names no machine: the machine of the map to be checked.
-  std::optional<model::Machine> otherwise = std::nullopt;
+  std::optional<Machine> otherwise = std::nullopt;
   /// A few readings, which only check a map, need not be enough for a fit.
   bool few = false;
   /// The measured values of a CSV whose header says mm are in inches: marks, lengths and distances,

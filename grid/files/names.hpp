@@ -24,18 +24,18 @@ namespace chaintrue::grid::files {
 template <class E>
 using Named = std::pair<std::string_view, E>;
 
-inline constexpr Named<model::ControllerKind> kControllerKinds[] = {
-    {"ideal", model::ControllerKind::ideal},
-    {"maslow_classic", model::ControllerKind::maslow_classic},
-    {"holey", model::ControllerKind::holey},
-    {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter}};
-inline constexpr Named<model::Feed> kFeeds[] = {{"over_top", model::Feed::over_top},
-                                                {"off_bottom", model::Feed::off_bottom}};
-inline constexpr Named<model::Model> kModels[] = {
-    {"straight", model::Model::straight},         {"wrap", model::Model::wrap},
-    {"firmware", model::Model::firmware},         {"one_shot", model::Model::one_shot},
-    {"inextensible", model::Model::inextensible}, {"elastic", model::Model::elastic},
-    {"elastic_3d", model::Model::elastic_3d}};
+inline constexpr Named<ControllerKind> kControllerKinds[] = {
+    {"ideal", ControllerKind::ideal},
+    {"maslow_classic", ControllerKind::maslow_classic},
+    {"holey", ControllerKind::holey},
+    {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter}};
+inline constexpr Named<Feed> kFeeds[] = {{"over_top", Feed::over_top},
+                                         {"off_bottom", Feed::off_bottom}};
+inline constexpr Named<Model> kModels[] = {
+    {"straight", Model::straight},         {"wrap", Model::wrap},
+    {"firmware", Model::firmware},         {"one_shot", Model::one_shot},
+    {"inextensible", Model::inextensible}, {"elastic", Model::elastic},
+    {"elastic_3d", Model::elastic_3d}};
 inline constexpr Named<interp::EndCondition> kEndConditions[] = {
     {"not_a_knot", interp::EndCondition::not_a_knot},
     {"natural", interp::EndCondition::natural},

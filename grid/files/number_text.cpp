@@ -21,10 +21,9 @@ namespace {
 /// those without an exponent, 0.000...
 bool is_near_zero(std::string_view text) {
   const std::size_t exponent = text.find_first_of("eE");
-  if (exponent != std::string_view::npos && exponent + 1 < text.size())
-    return text[exponent + 1] == '-';
+  if (exponent != npos && exponent + 1 < text.size()) return text[exponent + 1] == '-';
   const std::size_t first = text.find_first_not_of("+-");
-  return first != std::string_view::npos && (text[first] == '0' || text[first] == '.');
+  return first != npos && (text[first] == '0' || text[first] == '.');
 }
 
 /// Infinite beyond a double's range; empty for a text that is not a number as a whole.
@@ -75,7 +74,7 @@ std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, i
 
 bool looks_like_decimal_comma(std::string_view text) {
   const std::size_t comma = text.find(',');
-  if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos) {
+  if (comma == npos || text.find(',', comma + 1) != npos) {
     return false;
   }
   if (comma == 0 || comma + 1 == text.size()) return false;
@@ -148,14 +147,14 @@ std::optional<double> whole(std::string_view text) {
 /// `13/16` or `43 13/16`, without a sign.
 std::optional<double> fraction(std::string_view text) {
   double before = 0.0;
-  if (const std::size_t gap = text.find_first_of(" -"); gap != std::string_view::npos) {
+  if (const std::size_t gap = text.find_first_of(" -"); gap != npos) {
     const auto inches = whole(text.substr(0, gap));
     if (!inches) return std::nullopt;
     before = *inches;
     text = trimmed(text.substr(gap + 1));
   }
   const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return std::nullopt;
+  if (slash == npos) return std::nullopt;
   const auto above = whole(text.substr(0, slash));
   const auto below = whole(text.substr(slash + 1));
   // 13/8 of an inch, or a date, is not a reading of a rule.
@@ -167,7 +166,7 @@ std::optional<double> fraction(std::string_view text) {
 std::optional<double> take_feet(std::string_view& text) {
   for (const std::string_view word : {"'", "\xE2\x80\xB2", "feet", "ft"}) {
     const std::size_t at = text.find(word);
-    if (at == std::string_view::npos || text.substr(at).starts_with("''")) continue;
+    if (at == npos || text.substr(at).starts_with("''")) continue;
     const auto feet = whole(trimmed(text.substr(0, at)));
     if (feet) text = trimmed(text.substr(at + word.size()));
     return feet;
@@ -182,8 +181,7 @@ std::optional<double> inches_behind_feet(std::string_view text) {
   const auto unit = take_unit(text);
   if (unit && *unit != kMmPerInch) return std::nullopt;
   auto inches = fraction(text);
-  if (!inches && text.find_first_not_of("0123456789.") == std::string_view::npos)
-    inches = number_of(text);
+  if (!inches && text.find_first_not_of("0123456789.") == npos) inches = number_of(text);
   return inches && *inches < kInchesPerFoot ? inches : std::nullopt;
 }
 
@@ -193,13 +191,12 @@ std::optional<std::string> fraction_of_date(std::string_view text) {
   constexpr std::string_view kMonths = "JanFebMarAprMayJunJulAugSepOctNovDec";
   text = trimmed(text);
   const std::size_t dash = text.find('-');
-  if (dash == std::string_view::npos) return std::nullopt;
+  if (dash == npos) return std::nullopt;
   const bool month_first = dash == 3;
   const std::string_view name = month_first ? text.substr(0, dash) : text.substr(dash + 1);
   const std::string_view below = month_first ? text.substr(dash + 1) : text.substr(0, dash);
   const std::size_t at = kMonths.find(name);
-  if (name.size() != 3 || at == std::string_view::npos || at % 3 != 0 || below.size() > 2 ||
-      !whole(below))
+  if (name.size() != 3 || at == npos || at % 3 != 0 || below.size() > 2 || !whole(below))
     return std::nullopt;
   return std::to_string(at / 3 + 1) + "/" + std::to_string(static_cast<int>(*whole(below)));
 }

@@ -75,7 +75,7 @@ void number_visits(std::vector<MeasuredPoint>& points) {
   for (MeasuredPoint& point : points) in_order.push_back(&point);
   sort(in_order,
        [](const MeasuredPoint* a, const MeasuredPoint* b) { return *a->order < *b->order; });
-  for (std::size_t i = 0; i < in_order.size(); ++i) in_order[i]->order = static_cast<int>(i);
+  for (const auto i : each_index(in_order)) in_order[i]->order = as_int(i);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void number_visits(std::vector<MeasuredPoint>& points) {
 MeasuredGrid parse_optical(const std::string& text, const std::string& file,
                            const OpticalOptions& options) {
   Problems problems(file);
-  if (options.machine.controller.kind == model::ControllerKind::ideal) {
+  if (options.machine.controller.kind == ControllerKind::ideal) {
     problems.add("the machine's /controller", "", ProblemKind::missing,
                  "the controller that executed the commands (\"kind\": \"maslow_classic\", "
                  "\"holey\" or \"fluidnc_wallplotter\") and its settings");
@@ -96,18 +96,18 @@ MeasuredGrid parse_optical(const std::string& text, const std::string& file,
         .value_or(0.0);
   };
   std::vector<std::vector<double>> errors;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
+  for (const auto r : each_index(rows)) {
     errors.emplace_back();
-    for (std::size_t c = 0; c < rows[r].size(); ++c) errors.back().push_back(error(r, c));
+    for (const auto c : each_index(rows[r])) errors.back().push_back(error(r, c));
   }
   problems.throw_if_any();
   MeasuredGrid grid;
   grid.name = name_without_folders(file);
   grid.machine = options.machine;
   grid.sheet = SheetUncertainty{};
-  std::vector<std::string> lines;
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
+  Words lines;
+  for (const int row : each_below(kRows)) {
+    for (const int column : each_below(kColumns)) {
       const double in_x = errors[as_size(row)][as_size(column)];
       const double in_y = errors[as_size(row + kRows)][as_size(column)];
       if (in_x == 0.0 && in_y == 0.0) continue;

@@ -26,7 +26,7 @@ inline constexpr int kOpticalSquares = 15 * 31;
 
 struct OpticalOptions {
   /// Includes the controller that executed the commands.
-  model::Machine machine;
+  Machine machine;
   /// Between two squares; 3 inches on the printed banner.
   double pitch_mm = 76.2;
   std::optional<VisitingOrder> order;

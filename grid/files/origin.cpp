@@ -46,8 +46,8 @@ constexpr std::string_view kTables[] = {
     "{\"x_mm\": "};
 
 /// The comments of a file's root, one by one.
-std::vector<std::string> comments_of(const Json& document) {
-  std::vector<std::string> comments;
+Words comments_of(const Json& document) {
+  Words comments;
   const Json comment = document.value("comment", Json::array());
   for (const Json& line : comment.is_array() ? comment : Json::array({comment})) {
     if (line.is_string()) comments.push_back(line.get<std::string>());
@@ -77,7 +77,7 @@ std::string signature_line(std::string_view text) {
 
 Origin origin_of_list(std::string_view text) {
   const std::size_t begin = text.rfind("# " + std::string(kSignature));
-  if (begin == std::string_view::npos) return Origin::foreign;
+  if (begin == npos) return Origin::foreign;
   return text.substr(begin) == signature_line(text.substr(0, begin)) ? Origin::list
                                                                      : Origin::changed;
 }
@@ -85,7 +85,7 @@ Origin origin_of_list(std::string_view text) {
 std::string signed_json(const std::string& text, Origin kind) {
   const Json document = parse_json(text, "");
   if (origin_by_type(document) != kind) return text;
-  std::vector<std::string> comments = comments_of(document);
+  Words comments = comments_of(document);
   std::erase_if(comments, [](const std::string& own) { return own.starts_with(kSignature); });
   comments.push_back(std::string(kSignature) + content_hash(document));
   Json out = Json::object();
@@ -104,8 +104,7 @@ Origin origin_of(std::string_view text) {
   for (const std::string_view head : kTables) {
     if (text.starts_with(head)) return Origin::table;
   }
-  if (text.starts_with(kSchemaOfFormat) || text.find(kPageOfFormat) != std::string_view::npos)
-    return Origin::description;
+  if (text.starts_with(kSchemaOfFormat) || has(text, kPageOfFormat)) return Origin::description;
   if (text.starts_with("{")) return origin_of_json(std::string(text));
   if (text.starts_with(std::string(kPageHead) + std::string(kMark))) return Origin::page;
   const std::string_view first_line = text.substr(0, text.find('\n'));
@@ -115,7 +114,7 @@ Origin origin_of(std::string_view text) {
       first_line.starts_with("; chaintrue start:")) {
     return Origin::program;
   }
-  if (text.find("\nMeasured less map  ") != std::string_view::npos) return Origin::table;
+  if (has(text, "\nMeasured less map  ")) return Origin::table;
   return origin_of_list(text);
 }
 

@@ -16,8 +16,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::PlotterMachine;
-
 /// The words of the last line of such a code: "L-325.00" of M665 as M665/L.
 void add_code(const std::string& text, const std::string& code, SettingTexts& texts) {
   std::istringstream lines(text);
@@ -25,7 +23,7 @@ void add_code(const std::string& text, const std::string& code, SettingTexts& te
   for (std::string line; std::getline(lines, line);) {
     ++line_number;
     const std::size_t at = line.find(code + " ");
-    if (at == std::string::npos) continue;
+    if (at == npos) continue;
     std::istringstream words(line.substr(at + code.size()));
     for (std::string word; words >> word && word[0] != ';';) {
       if (word.size() > 1) texts[code + "/" + word[0]] = {word.substr(1), line_place(line_number)};
@@ -48,17 +46,17 @@ MarlinArea logged_area(SettingReader& settings) {
           {}};
 }
 
-const std::vector<std::string> kMarlinNames = {"X_BED_SIZE",
-                                               "Y_BED_SIZE",
-                                               "X_MIN_POS",
-                                               "X_MAX_POS",
-                                               "Y_MIN_POS",
-                                               "Y_MAX_POS",
-                                               "MANUAL_X_HOME_POS",
-                                               "MANUAL_Y_HOME_POS",
-                                               "POLARGRAPH_MAX_BELT_LEN",
-                                               "DEFAULT_AXIS_STEPS_PER_UNIT",
-                                               "DEFAULT_SEGMENTS_PER_SECOND"};
+const Words kMarlinNames = {"X_BED_SIZE",
+                            "Y_BED_SIZE",
+                            "X_MIN_POS",
+                            "X_MAX_POS",
+                            "Y_MIN_POS",
+                            "Y_MAX_POS",
+                            "MANUAL_X_HOME_POS",
+                            "MANUAL_Y_HOME_POS",
+                            "POLARGRAPH_MAX_BELT_LEN",
+                            "DEFAULT_AXIS_STEPS_PER_UNIT",
+                            "DEFAULT_SEGMENTS_PER_SECOND"};
 
 MarlinArea defined_area(SettingReader& settings, Problems& problems) {
   MarlinArea area;
@@ -132,8 +130,8 @@ void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Pro
                  "more than half of the {} mm between the motors", 2.0 * half);
     return;
   }
-  set.home = model::BedPoint{area.home_x.value_or(set.pins_middle.x_mm) - set.pins_middle.x_mm,
-                             -std::sqrt(belt * belt - half * half)};
+  set.home = BedPoint{area.home_x.value_or(set.pins_middle.x_mm) - set.pins_middle.x_mm,
+                      -std::sqrt(belt * belt - half * half)};
   if (area.home_y) set.home->y_mm = *area.home_y - area.top;
   const double longest = std::hypot(std::abs(set.home->x_mm) + half, set.home->y_mm);
   if (set.home->y_mm < 0.0 && longest <= belt + 0.5) return;
@@ -177,7 +175,7 @@ SetPlotter plotter_of_marlin(const std::string& text, Problems& problems) {
     return settings.find(key, kPositive).value_or(0.0);
   };
   SetPlotter set;
-  set.firmware = model::PlotterFirmware::marlin;
+  set.firmware = PlotterFirmware::marlin;
   set.steps_per_mm = {steps("X", 0), steps("Y", 1)};
   constexpr Range kASecond{"1/s", 0.1, 1e4};
   if (const auto pieces =

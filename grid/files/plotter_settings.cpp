@@ -16,9 +16,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using model::PlotterFirmware;
-using model::PlotterMachine;
-
 // The numbers on a mural's own page, by their names.
 constexpr const char* kTopDistance = "top distance";
 constexpr const char* kPulleyDiameter = "effective pulley diameter";
@@ -31,11 +28,11 @@ constexpr const char* kPolargraphWidth = "machine.width";
 constexpr const char* kBootLine = "Loaded ";
 
 bool has_line_with(const std::string& text, const std::string& begin) {
-  return text.starts_with(begin) || text.find("\n" + begin) != std::string::npos;
+  return text.starts_with(begin) || has(text, "\n" + begin);
 }
 
 bool is_boot_log_of_polargraph(const std::string& text) {
-  return text.find("Loaded machine width:") != std::string::npos;
+  return has(text, "Loaded machine width:");
 }
 
 bool is_of_polargraph(const std::string& text) {
@@ -64,7 +61,7 @@ SetPlotter of_fluidnc(const std::string& text, Problems& problems) {
   set.machine.pin_rise_mm = right.y_mm - left.y_mm;
   set.pins_middle = {0.5 * (left.x_mm + right.x_mm), 0.5 * (left.y_mm + right.y_mm)};
   // FluidNC starts at its own zero.
-  set.home = model::BedPoint{-set.pins_middle.x_mm, -set.pins_middle.y_mm};
+  set.home = BedPoint{-set.pins_middle.x_mm, -set.pins_middle.y_mm};
   set.steps_per_mm = {settings.find("axes/x/steps_per_mm", kPositive).value_or(0.0),
                       settings.find("axes/y/steps_per_mm", kPositive).value_or(0.0)};
   assume_area(std::nullopt, set.machine, problems);
@@ -92,8 +89,8 @@ SettingTexts boot_log_texts(const std::string& text) {
 }
 
 /// From the left motor, right and down.
-model::BedPoint polargraph_home(SettingReader& settings, double width, bool is_boot_log,
-                                Problems& problems) {
+BedPoint polargraph_home(SettingReader& settings, double width, bool is_boot_log,
+                         Problems& problems) {
   // PenPlotter's own: half of the width, and how far down.
   if (const auto down = settings.find("machine.homepoint.y", kCoordinateMm)) {
     const auto more = settings.find("machine.homepoint.offsety", kCoordinateMm);
@@ -112,7 +109,7 @@ model::BedPoint polargraph_home(SettingReader& settings, double width, bool is_b
 }
 
 /// The page and the home are on the machine.
-void check_within(double width, std::optional<double> height, model::BedPoint home,
+void check_within(double width, std::optional<double> height, BedPoint home,
                   const model::DrawingArea& page, Problems& problems) {
   if (problems.any()) return;
   if (home.x_mm <= 0.0 || home.x_mm >= width || home.y_mm <= 0.0 ||
@@ -134,7 +131,7 @@ SetPlotter of_polargraph(const std::string& text, Problems& problems) {
   SetPlotter set;
   set.firmware = PlotterFirmware::polargraph;
   const double width = settings.need(kPolargraphWidth, kCoordinateMm);
-  const model::BedPoint home = polargraph_home(settings, width, is_boot_log, problems);
+  const BedPoint home = polargraph_home(settings, width, is_boot_log, problems);
   const double turn = settings.need("machine.motors.mmPerRev", kPositive);
   const double steps = settings.need("machine.motors.stepsPerRev", kPositive) *
                        settings.find("machine.step.multiplier", kPositive).value_or(1.0);
@@ -142,7 +139,7 @@ SetPlotter of_polargraph(const std::string& text, Problems& problems) {
   set.machine.pin_spacing_mm = width;
   // Its origin is the left motor, with y downwards.
   set.pins_middle = {0.5 * width, 0.0};
-  set.home = model::BedPoint{home.x_mm - 0.5 * width, -home.y_mm};
+  set.home = BedPoint{home.x_mm - 0.5 * width, -home.y_mm};
   const auto height = settings.find("machine.height", kPositive);
   const auto page_left = settings.find("controller.page.position.x", kCoordinateMm);
   const auto page_top = settings.find("controller.page.position.y", kCoordinateMm);
@@ -196,9 +193,7 @@ SetPlotter of_mural(const std::string& text, Problems& problems) {
   return set;
 }
 
-bool is_marlin(const std::string& text) {
-  return text.find("M665 ") != std::string::npos || text.find("POLARGRAPH") != std::string::npos;
-}
+bool is_marlin(const std::string& text) { return has(text, "M665 ") || has(text, "POLARGRAPH"); }
 
 SetPlotter settings_of(const std::string& text, Problems& problems) {
   refuse_foreign_settings(text, problems);
@@ -227,7 +222,7 @@ ReadPlotter parse_plotter_settings(const std::string& text, const std::string& f
   problems.throw_if_any();
   PlotterMachine& machine = read.plotter.set.machine;
   machine.name = name_without_folders(file);
-  problems.add_all("the plotter's ", model::problems_of(machine));
+  problems.add_all("the plotter's ", problems_of(machine));
   problems.throw_if_any();
   read.warnings = problems.warnings();
   return read;

@@ -8,13 +8,13 @@
 
 namespace chaintrue::grid::files {
 
-std::vector<model::MarkPoint> parse_points(const std::string& text, const std::string& file) {
+std::vector<MarkPoint> parse_points(const std::string& text, const std::string& file) {
   // A plan numbers its points in the order of visits, which is the order of the lines. Columns of
   // readings are ignored.
   constexpr Range kNumber{"", 0.0, 1e9};
   Problems problems(file);
   // A list of commands: the positions that the tool was sent to.
-  const std::vector<std::string> header = csv_header(text);
+  const Words header = csv_header(text);
   const bool is_sheet = contains(header, "commanded_x_mm");
   const std::vector<CsvLine> lines = read_csv(text,
                                               {{"x_mm", kCoordinateMm, true, is_sheet},
@@ -27,7 +27,7 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
                                                {"commanded_y_mm", kCoordinateMm, is_sheet}},
                                               problems);
   problems.throw_if_any();
-  std::vector<model::MarkPoint> points;
+  std::vector<MarkPoint> points;
   points.reserve(lines.size());
   const std::size_t x = is_sheet ? 6 : 0;
   for (const CsvLine& line : lines)
@@ -35,7 +35,7 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
   return points;
 }
 
-std::vector<model::MarkPoint> read_points(const std::filesystem::path& path) {
+std::vector<MarkPoint> read_points(const std::filesystem::path& path) {
   return parse_points(read_whole_file(path), name_in_messages(path));
 }
 

@@ -15,8 +15,8 @@ namespace chaintrue::grid::files {
 
 /// In the file's order. "-" reads standard input. \throws InputError with every problem of the
 /// file.
-std::vector<model::MarkPoint> read_points(const std::filesystem::path& path);
+std::vector<MarkPoint> read_points(const std::filesystem::path& path);
 /// `file` is the name used in messages.
-std::vector<model::MarkPoint> parse_points(const std::string& text, const std::string& file);
+std::vector<MarkPoint> parse_points(const std::string& text, const std::string& file);
 
 }  // namespace chaintrue::grid::files

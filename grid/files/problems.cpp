@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
@@ -15,8 +14,7 @@ bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0
 
 /// Levenshtein distance, case-insensitive.
 std::size_t errors_between(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  Indices row = numbers_below(b.size() + 1);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::size_t diagonal = row[0];
     row[0] = i;
@@ -143,12 +141,11 @@ std::string line_and_column_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
   const auto line = 1 + count_equal(before, '\n');
   const std::size_t last_break = before.rfind('\n');
-  const std::size_t column =
-      last_break == std::string_view::npos ? before.size() + 1 : before.size() - last_break;
+  const std::size_t column = last_break == npos ? before.size() + 1 : before.size() - last_break;
   return line_and_column(line, column);
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+std::string nearest(std::string_view word, const Words& candidates) {
   constexpr std::size_t kLongestCompared = 100;
   if (word.size() > kLongestCompared) return {};
   const std::size_t most_errors = std::max<std::size_t>(2, word.size() / 3);
@@ -165,8 +162,6 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   return best;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, ", "));
-}
+std::string joined(const Words& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 }  // namespace chaintrue::grid::files

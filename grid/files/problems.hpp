@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/files/blanks.hpp"
 #include "grid/files/input_error.hpp"
 #include "model/machine.hpp"
 
@@ -36,12 +37,12 @@ class Problems {
     add(std::move(place), value, kind, fmt::format(expected, std::forward<Args>(args)...));
   }
   /// A value that no machine has.
-  void add(std::string place, const model::MachineProblem& problem) {
+  void add(std::string place, const MachineProblem& problem) {
     add(std::move(place), problem.value, ProblemKind::impossible, problem.expected);
   }
   /// Each at its parameter: "the machine's /bed/width_mm".
-  void add_all(const std::string& whose, const std::vector<model::MachineProblem>& found) {
-    for (const model::MachineProblem& problem : found) add(whose + problem.parameter, problem);
+  void add_all(const std::string& whose, const std::vector<MachineProblem>& found) {
+    for (const MachineProblem& problem : found) add(whose + problem.parameter, problem);
   }
   /// A recognised mistake: `sentence` describes it and what to do.
   void explain(std::string place, ProblemKind kind, std::string sentence);

@@ -15,7 +15,7 @@ namespace {
 struct ReadingKind {
   ReadingOf what;
   Range value;
-  std::vector<std::string> sides = {};  ///< allowed sides; empty: none
+  Words sides = {};  ///< allowed sides; empty: none
 };
 
 const std::vector<ReadingKind>& reading_kinds() {

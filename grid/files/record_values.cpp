@@ -25,8 +25,7 @@ Value<Vector2d> pair_of_numbers(const Range& range, bool in_order) {
             if (!read || read->size() < 2) return std::nullopt;
             const Vector2d pair((*read)[0], (*read)[1]);
             if (read->size() == 2 && (!in_order || pair[0] <= pair[1])) return pair;
-            at.expect(expected);
-            return std::nullopt;
+            return at.expect(expected);
           },
           // A negative zero would be read back as a zero: the same number, other bytes.
           [](const Vector2d& pair) {
@@ -57,7 +56,7 @@ Value<MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest) {
         const std::size_t wide = rows.empty() ? 0 : rows.front().size();
         if (!all_of(rows, [&](const auto& row) { return row.size() == wide; })) return MatrixXd();
         MatrixXd matrix(as_index(rows.size()), as_index(wide));
-        for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const auto i : each_index(rows))
           matrix.row(as_index(i)) = Eigen::Map<const RowVectorXd>(rows[i].data(), matrix.cols());
         return matrix;
       },
@@ -68,24 +67,23 @@ Value<MatrixXd> matrix_of_numbers(const Range& range, std::size_t fewest) {
       });
 }
 
-void report_impossible(const Cursor& at, const std::vector<model::MachineProblem>& found) {
-  for (const model::MachineProblem& problem : found) {
+void report_impossible(const Cursor& at, const std::vector<MachineProblem>& found) {
+  for (const MachineProblem& problem : found) {
     const std::string place = at.pointer() + problem.parameter;
     if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
   }
 }
 
-Value<model::Setting> setting_word() {
-  std::vector<std::pair<std::string, model::Setting>> names;
-  for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);
-  for (auto setting : model::kSheetSettings) names.emplace_back(model::name(setting), setting);
-  return choice_of<model::Setting>(std::move(names));
+Value<Setting> setting_word() {
+  std::vector<std::pair<std::string, Setting>> names;
+  for (auto setting : kMachineSettings) names.emplace_back(name(setting), setting);
+  for (auto setting : model::kSheetSettings) names.emplace_back(name(setting), setting);
+  return choice_of<Setting>(std::move(names));
 }
 
-Record<ErrorSummary> error_summary_record() {
-  RECORD(ErrorSummary, "rms and maximum")
-  REQUIRED(rms_mm, "Root mean square.", kNotNegative)
-  REQUIRED(maximum_mm, "Largest value.", kNotNegative);
-}
+RECORD_OF(ErrorSummary, "rms and maximum")
+REQUIRED(rms_mm, "Root mean square.", kNotNegative)
+REQUIRED(maximum_mm, "Largest value.", kNotNegative)
+END_RECORD;
 
 }  // namespace chaintrue::grid::files

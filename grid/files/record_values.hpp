@@ -17,7 +17,6 @@
 
 namespace chaintrue::grid::files {
 
-inline constexpr Range kAnyNumber{"", -1e12, 1e12};
 inline constexpr Range kNotNegative{"", 0.0, 1e12};
 inline constexpr Range kShare{"", 0.0, 1.0};
 inline constexpr Range kMillimetres{"mm", -1e6, 1e6};
@@ -78,12 +77,12 @@ Value<std::array<V, N>> exactly(const Value<V>& element, const std::string& word
 
 /// Reports what no machine can be like. A field that could not be read keeps its default, which needs
 /// no check.
-void report_impossible(const Cursor& at, const std::vector<model::MachineProblem>& found);
+void report_impossible(const Cursor& at, const std::vector<MachineProblem>& found);
 
 /// The name of a setting of the machine or of the sheet.
-Value<model::Setting> setting_word();
+Value<Setting> setting_word();
 
 /// An rms and a maximum, mm.
-Record<ErrorSummary> error_summary_record();
+Record<ErrorSummary> record_of(Of<ErrorSummary>);
 
 }  // namespace chaintrue::grid::files

@@ -22,19 +22,19 @@ Json machine_schema(), grid_schema(), holes_schema(), belts_schema(), drawing_sc
     sweep_schema();
 
 /// Includes the checks of model::problems_of; warns of uncertainties that are assumed.
-const Record<model::Machine>& machine_record();
+const Record<Machine>& machine_record();
 /// An effect with its side and parameters; whether it exists is checked by the catalogue.
-Record<model::AppliedEffect> effect_record();
+Record<AppliedEffect> record_of(Of<AppliedEffect>);
 /// By GroundControl's own names.
 Record<model::ControllerSettings> controller_settings_record();
 
 /// A machine's "declared_effects": each is read, checked and declared.
-Value<std::vector<const model::effects::Effect*>> declared_value();
+Value<std::vector<const Effect*>> declared_value();
 /// Whether a machine's declared effects are finite on its bed and 0 at null.
-void check_declared_on_bed(const Cursor& at, const model::Machine& machine);
+void check_declared_on_bed(const Cursor& at, const Machine& machine);
 /// The effect of this name that the document's own machine declares, for a record that is read
 /// before or without that machine; null if there is none.
-const model::effects::Effect* declared_in_document(const Cursor& at, std::string_view id);
+const Effect* declared_in_document(const Cursor& at, std::string_view id);
 
 /// `readings` of the machine itself in a file of points or of holes.
 Record<ExtraReading> reading_record();
@@ -45,7 +45,7 @@ Value<ReadingOf> reading_name();
 /// firmware needs of the machine.
 Record<SetPlotter> set_plotter_record();
 
-Record<interp::Rectangle> rectangle_record();
+Record<interp::Rectangle> record_of(Of<interp::Rectangle>);
 /// A setting of a map: stated and calibrated.
 Record<SettingResult> setting_record();
 /// The keys on_machine and direct of a map, which has one of them.

@@ -48,8 +48,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-SettingReader::SettingReader(SettingTexts texts, Problems& problems,
-                             std::vector<std::string> folders)
+SettingReader::SettingReader(SettingTexts texts, Problems& problems, Words folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
   if (texts_.size() > kMostSettings) refuse_more_settings("", problems);
 }
@@ -85,8 +84,7 @@ double SettingReader::need(const std::string& key, const Range& range) {
   return find(key, range).value_or(0.0);
 }
 
-std::optional<std::string> SettingReader::find_word(const std::string& key,
-                                                    const std::vector<std::string>& words) {
+std::optional<std::string> SettingReader::find_word(const std::string& key, const Words& words) {
   const SettingText* setting = look(key);
   if (setting == nullptr) return std::nullopt;
   if (contains(words, setting->text)) return setting->text;
@@ -108,13 +106,13 @@ void SettingReader::warn_of_others(std::string_view says_what) {
     const auto first = read_.lower_bound(folder);
     return first != read_.end() && first->starts_with(folder);
   };
-  std::vector<std::string> names;
+  Words names;
   for (const auto& [path, setting] : texts_) {
     if (read_.contains(path)) continue;
     std::size_t part = path.find_first_of(kParts);
-    while (part != std::string::npos && is_folder_of_input(path.substr(0, part + 1)))
+    while (part != npos && is_folder_of_input(path.substr(0, part + 1)))
       part = path.find_first_of(kParts, part + 1);
-    const bool is_leaf = part == std::string::npos;
+    const bool is_leaf = part == npos;
     std::string name = is_leaf ? (folders_.empty() ? path : path.substr(path.rfind('/') + 1))
                                : fmt::format("all of {}", path.substr(0, part));
     if (names.empty() || names.back() != name) names.push_back(std::move(name));
@@ -141,12 +139,12 @@ SettingTexts yaml_texts(const std::string& text, Problems& problems) {
     line.resize(std::min(line.find('#'), line.size()));
     const std::size_t indent = line.find_first_not_of(' ');
     const std::size_t colon = line.find(':');
-    if (indent == std::string::npos || colon == std::string::npos) continue;
+    if (indent == npos || colon == npos) continue;
     while (!levels.empty() && levels.back().indent >= indent) levels.pop_back();
     const std::string key = line.substr(indent, colon - indent);
     const std::string path = levels.empty() ? key : levels.back().path + "/" + key;
     levels.push_back({indent, path});
-    const bool is_of_a_list = path.find("/-") != std::string::npos || path.starts_with("-");
+    const bool is_of_a_list = has(path, "/-") || path.starts_with("-");
     if (!is_of_a_list && !is_first(places, path, line_place(number), trimmed(line), problems))
       continue;
     const std::string_view value = trimmed(std::string_view(line).substr(colon + 1));
@@ -162,10 +160,10 @@ SettingTexts line_texts(const std::string& text, char separator, std::string_vie
   for (std::string line; texts.size() <= kMostSettings && std::getline(lines, line);) {
     ++number;
     const std::size_t begin = before.empty() ? 0 : line.find(before);
-    if (begin == std::string::npos || line.starts_with("#")) continue;
+    if (begin == npos || line.starts_with("#")) continue;
     const std::string_view entry = std::string_view(line).substr(begin + before.size());
     const std::size_t at = entry.find(separator);
-    if (at == std::string_view::npos) continue;
+    if (at == npos) continue;
     std::string_view value = trimmed(entry.substr(at + 1));
     for (const std::string_view unit : {"mm", "kg", "1/N", "/N"}) {
       if (!value.ends_with(unit)) continue;
@@ -180,7 +178,7 @@ SettingTexts line_texts(const std::string& text, char separator, std::string_vie
 SettingTexts ini_texts(std::string_view text, Problems& problems) {
   text = without_byte_order_mark(text);
   SettingTexts texts;
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+  if (text.find_first_not_of(" \t\r\n") == npos) {
     problems.add("", "an empty file", ProblemKind::empty_file, "an ini file with [sections]");
   }
   std::map<std::string, std::string> places;
@@ -188,9 +186,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
   std::size_t strange = 0;
   std::size_t settings = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const std::string_view line = trimmed(take_until(text, '\n'));
     if (line.empty() || line.front() == ';' || line.front() == '#') continue;
     const std::string place = line_place(number);
     if (line.front() == '[' && line.back() == ']') {
@@ -198,7 +194,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
       continue;
     }
     const std::size_t sign = line.find_first_of("=:");
-    if (sign == 0 || sign == std::string_view::npos || section.empty()) {
+    if (sign == 0 || sign == npos || section.empty()) {
       problems.add(place, line, ProblemKind::bad_syntax,
                    "[a section] or key = value in a section, as in an ini file");
       if (++strange == kMostStrangeLines) break;

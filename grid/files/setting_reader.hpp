@@ -74,6 +74,6 @@ SettingTexts ini_texts(std::string_view text, Problems& problems);
 std::string in_small_letters(std::string_view text);
 
 /// The anchors of FluidNC's WallPlotter, in its own coordinates; fluidnc_file.cpp.
-model::PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings);
+PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings);
 
 }  // namespace chaintrue::grid::files

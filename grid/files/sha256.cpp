@@ -58,7 +58,7 @@ void Sha256::take_block(const unsigned char* block) {
     a = t1 + t2;
   }
   const std::array<std::uint32_t, 8> found = {a, b, c, d, e, f, g, h};
-  for (std::size_t i = 0; i < found.size(); ++i) state_[i] += found[i];
+  for (const auto i : each_index(found)) state_[i] += found[i];
 }
 
 Sha256& Sha256::add(std::string_view bytes) {
@@ -83,7 +83,7 @@ std::string Sha256::text() const {
   ended.add("\x80");
   while (ended.waiting_bytes_ != kBlockBytes - kLengthBytes) ended.add(std::string_view("\0", 1));
   std::string length;
-  for (std::size_t i = 0; i < kLengthBytes; ++i)
+  for (const auto i : each_below(kLengthBytes))
     length += static_cast<char>(bits >> (8 * (kLengthBytes - 1 - i)) & 0xFFU);
   ended.add(length);
   std::string text;

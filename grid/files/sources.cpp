@@ -42,8 +42,8 @@ std::vector<std::filesystem::path> files_read() { return read_paths; }
 
 void note_as_read(std::filesystem::path path) { read_paths.push_back(std::move(path)); }
 
-std::vector<std::string> changed_since(const Provenance& then, const std::vector<SourceFile>& now) {
-  std::vector<std::string> changed;
+Words changed_since(const Provenance& then, const std::vector<SourceFile>& now) {
+  Words changed;
   for (const SourceFile& given : now) {
     const bool was_there = any_of(then.inputs, having(&SourceFile::name, given.name));
     const bool is_same = contains(then.inputs, given);
@@ -54,11 +54,10 @@ std::vector<std::string> changed_since(const Provenance& then, const std::vector
 
 namespace {
 
-auto source_file_record() {
-  RECORD(SourceFile, "a file that was read")
-  REQUIRED(name, "Its name, without folders.")
-  REQUIRED(sha256, "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.");
-}
+RECORD_OF(SourceFile, "a file that was read")
+REQUIRED(name, "Its name, without folders.")
+REQUIRED(sha256, "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.")
+END_RECORD;
 
 }  // namespace
 
@@ -69,7 +68,7 @@ Record<Provenance> provenance_record() {
   REQUIRED(options,
            "Options as given, with files without their folders and without those that "
            "name an output.")
-  REQUIRED(inputs, "The files that were read, in order.", source_file_record());
+  REQUIRED(inputs, "The files that were read, in order.");
 }
 
 Json with_made_by(Json document, const std::optional<Provenance>& made_by) {

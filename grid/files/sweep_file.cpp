@@ -24,12 +24,8 @@ namespace chaintrue::grid::files {
 namespace {
 
 namespace fs = std::filesystem;
-using model::Model;
 using sweep::GridLevel;
-using sweep::NoiseLevel;
-using sweep::SurfaceLevel;
 using sweep::SweepSpec;
-using synthetic::DesignKind;
 
 struct StatedMachine {
   std::string name;
@@ -47,8 +43,7 @@ Value<GridLevel> grid_size(int least) {
             constexpr int kMost = 1000;
             const auto size = pair_of(*word, 'x', least, kMost);
             if (size) return GridLevel{(*size)[0], (*size)[1]};
-            at.expect(expected);
-            return std::nullopt;
+            return at.expect(expected);
           },
           [](const GridLevel& size) { return Json(fmt::format("{}x{}", size.columns, size.rows)); },
           {expected, [] {
@@ -57,7 +52,7 @@ Value<GridLevel> grid_size(int least) {
 }
 
 auto noise_level_record() {
-  RECORD(NoiseLevel, "a noise")
+  RECORD(sweep::NoiseLevel, "a noise")
   REQUIRED(length_mm, "Noise of a chain reading, 1 sigma.", kNoiseMm)
   REQUIRED(position_mm, "Noise of a mark's position, 1 sigma on each axis.", kNoiseMm);
 }
@@ -74,13 +69,13 @@ auto stated_machine_record() {
 auto effects_record() {
   RECORD(sweep::EffectsLevel, "hidden effects")
   REQUIRED(name, "Name of this level in results.")
-  REQUIRED(effects, "Effects of the true machine that are hidden from the fit.", effect_record());
+  REQUIRED(effects, "Effects of the true machine that are hidden from the fit.");
 }
 
 auto use_record() {
   RECORD(sweep::UseLevel, "a machine that the map is used on")
   REQUIRED(name, "Name of this level in results.")
-  SPARSE(effects, "Effects in addition to those of the measured machine.", effect_record())
+  SPARSE(effects, "Effects in addition to those of the measured machine.")
   OPTIONAL(another_of_the_build,
            "A different machine of the same build, with its settings drawn anew.");
 }
@@ -88,10 +83,10 @@ auto use_record() {
 SweepSpec default_sweep() {
   SweepSpec spec;
   spec.grids = {GridLevel{}};
-  spec.spacings = {DesignKind::regular};
-  spec.noises = {NoiseLevel{}};
+  spec.spacings = {synthetic::DesignKind::regular};
+  spec.noises = {sweep::NoiseLevel{}};
   spec.jitters_mm = {0.0};
-  spec.surfaces = {SurfaceLevel::residual};
+  spec.surfaces = {sweep::SurfaceLevel::residual};
   spec.effects = {{"none", {}}};
   spec.uses = {{"the same machine", {}, false}};
   return spec;
@@ -103,46 +98,47 @@ struct StatedSweep : SweepSpec {
   std::vector<StatedMachine> machine_files;
 };
 
-const Record<StatedSweep>& sweep_record() {
-  const auto spacing =
-      choice<DesignKind>({{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
-  const auto surface = by_name_to(SurfaceLevel::direct_natural);
-  KEPT_RECORD(StatedSweep, "a chaintrue_sweep file", kSweepFormat)
-  REQUIRED(name, "Name of the sweep.")
-  OPTIONAL(question, "The question it answers, in a sentence.")
-  OPTIONAL(seed, "Seed of the random draws; the same seed gives the same numbers.", seed_number())
-  REQUIRED(repetitions, "Number of machines drawn for each combination.", integer(1, 1'000'000))
-  OPTIONAL(repeats, "Number of marks that are visited twice.", integer(0, 10'000))
-  OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
-  OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
-  FIELD(
-      computed, "evaluation", "Columns x rows of places where the map is compared with the truth.",
-      false, grid_size(1),
-      [](StatedSweep& stated, const GridLevel& size) {
-        stated.evaluation_columns = size.columns;
-        stated.evaluation_rows = size.rows;
-      },
-      [](const StatedSweep& stated) {
-        return GridLevel{stated.evaluation_columns, stated.evaluation_rows};
-      })
-  OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
-  OPTIONAL(spacings, "Spacing of the marks; a factor.", list(spacing, 1))
-  OPTIONAL(noises, "Noise of the readings; a factor.", list(noise_level_record(), 1))
-  OPTIONAL(jitters_mm, "Largest distance of the sled from its mark; a factor.",
-           list(number({"mm", 0.0, 1000.0}), 1))
-  OPTIONAL(surfaces, "Kind of map; a factor.", list(surface, 1))
-  NAMED(required, "machines", machine_files, "The machines; a factor.",
-        list(stated_machine_record(), 1))
-  OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
-  NAMED(optional, "used_on", uses, "The machine that the map is used on; a factor.",
-        list(use_record(), 1));
-  return record;
-}
+}  // namespace
 
-void read_machines(const fs::path& path, const std::vector<std::string>& effects,
-                   StatedSweep& stated, std::set<std::string>& given, Problems& problems) {
+FILE_RECORD(sweep, StatedSweep, "a chaintrue_sweep file", kSweepFormat)
+REQUIRED(name, "Name of the sweep.")
+OPTIONAL(question, "The question it answers, in a sentence.")
+OPTIONAL(seed, "Seed of the random draws; the same seed gives the same numbers.", seed_number())
+REQUIRED(repetitions, "Number of machines drawn for each combination.", integer(1, 1'000'000))
+OPTIONAL(repeats, "Number of marks that are visited twice.", integer(0, 10'000))
+OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
+OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
+FIELD(
+    computed, "evaluation", "Columns x rows of places where the map is compared with the truth.",
+    false, grid_size(1),
+    [](StatedSweep& stated, const GridLevel& size) {
+      stated.evaluation_columns = size.columns;
+      stated.evaluation_rows = size.rows;
+    },
+    [](const StatedSweep& stated) {
+      return GridLevel{stated.evaluation_columns, stated.evaluation_rows};
+    })
+OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
+OPTIONAL(spacings, "Spacing of the marks; a factor.",
+         list(in_order<synthetic::DesignKind>({"regular", "chebyshev"}), 1))
+OPTIONAL(noises, "Noise of the readings; a factor.", list(noise_level_record(), 1))
+OPTIONAL(jitters_mm, "Largest distance of the sled from its mark; a factor.",
+         list(number({"mm", 0.0, 1000.0}), 1))
+OPTIONAL(surfaces, "Kind of map; a factor.",
+         list(by_name_to(sweep::SurfaceLevel::direct_natural), 1))
+NAMED(required, "machines", machine_files, "The machines; a factor.",
+      list(stated_machine_record(), 1))
+OPTIONAL(effects, "Hidden effects; a factor.", list(effects_record(), 1))
+NAMED(optional, "used_on", uses, "The machine that the map is used on; a factor.",
+      list(use_record(), 1))
+END_FILE_RECORD;
+
+namespace {
+
+void read_machines(const fs::path& path, const Words& effects, StatedSweep& stated,
+                   std::set<std::string>& given, Problems& problems) {
   // Several levels may name one file; its warnings are given once.
-  std::map<std::string, model::Machine> known;
+  std::map<std::string, Machine> known;
   bool effects_are_sound = true;  // their problems are reported once
   const auto alongside = [&](const std::string& name) {
     const auto [at, is_new] = known.try_emplace(name);
@@ -176,25 +172,24 @@ void read_machines(const fs::path& path, const std::vector<std::string>& effects
 /// Every effect must be able to act on every machine of the sweep.
 void check_effects(const SweepSpec& spec, Problems& problems) {
   const auto check = [&](const std::string& list, std::size_t index,
-                         const std::vector<model::AppliedEffect>& effects) {
+                         const std::vector<AppliedEffect>& effects) {
     for (const sweep::MachineLevel& level : spec.machines) {
-      model::Machine machine = level.truth;
+      Machine machine = level.truth;
       machine.effects = effects;
-      for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
+      for (const MachineProblem& problem : model::effects::problems_of_effects(machine)) {
         const std::string place = fmt::format("/{}/{}{}", list, index, problem.parameter);
         if (!problems.at_or_below(place)) problems.add(place, problem);
       }
     }
   };
-  for (std::size_t i = 0; i < spec.effects.size(); ++i)
-    check("effects", i, spec.effects[i].effects);
-  for (std::size_t i = 0; i < spec.uses.size(); ++i) check("used_on", i, spec.uses[i].effects);
+  for (const auto i : each_index(spec.effects)) check("effects", i, spec.effects[i].effects);
+  for (const auto i : each_index(spec.uses)) check("used_on", i, spec.uses[i].effects);
 }
 
 /// Unused input is a mistake.
 void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& problems) {
-  const auto remove = [&](const std::vector<model::AppliedEffect>& effects) {
-    for (const model::AppliedEffect& own : effects) given.erase(own.effect);
+  const auto remove = [&](const std::vector<AppliedEffect>& effects) {
+    for (const AppliedEffect& own : effects) given.erase(own.effect);
   };
   for (const auto& level : spec.effects) remove(level.effects);
   for (const auto& level : spec.uses) remove(level.effects);
@@ -205,7 +200,7 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
 
 }  // namespace
 
-ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effects) {
+ReadSweep read_sweep(const fs::path& path, const Words& effects) {
   Problems problems(name_in_messages(path));
   StatedSweep stated = read_document(sweep_record(), read_whole_file(path), problems);
   std::set<std::string> given;
@@ -222,7 +217,5 @@ ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effec
   }
   return {stated, hash.text(), problems.warnings()};
 }
-
-Json sweep_schema() { return sweep_record().schema(); }
 
 }  // namespace chaintrue::grid::files

@@ -18,14 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 using sweep::CellResult;
 using sweep::CellStatus;
-using sweep::GridLevel;
-using sweep::kFactorNames;
 using sweep::kFactors;
 using sweep::Levels;
 using sweep::SweepSpec;
 
 std::string csv_text(const std::string& word) {
-  if (word.find_first_of(",\"\n") == std::string::npos) return word;
+  if (word.find_first_of(",\"\n") == npos) return word;
   std::string quoted = "\"";
   for (const char c : word) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
@@ -33,7 +31,7 @@ std::string csv_text(const std::string& word) {
 
 std::string csv_header() {
   std::string line = "cell";
-  for (const std::string_view factor : kFactorNames) line += fmt::format(",{}", factor);
+  for (const std::string_view factor : sweep::kFactorNames) line += fmt::format(",{}", factor);
   line += ",points,repetition,status";
   for (const auto& [name, error] : kCellErrors) line += fmt::format(",{}", name);
   return line + "\n";
@@ -41,10 +39,10 @@ std::string csv_header() {
 
 std::string csv_levels(const SweepSpec& spec, const Levels& levels) {
   std::string text;
-  for (std::size_t factor = 0; factor < kFactors; ++factor) {
+  for (const auto factor : each_below(kFactors)) {
     text += "," + csv_text(level_name(spec, factor, levels[factor]));
   }
-  const GridLevel& grid = spec.grids[levels[kFactors - 1]];
+  const sweep::GridLevel& grid = spec.grids[levels[kFactors - 1]];
   return text + fmt::format(",{}", grid.columns * grid.rows);
 }
 
@@ -67,9 +65,9 @@ std::string summary_head(const SweepSpec& spec) {
 std::string summary_line(const SweepSpec& spec, const Levels& levels,
                          const std::vector<CellResult>& repetitions) {
   Json line = Json::object();
-  for (std::size_t factor = 0; factor < kFactors; ++factor)
-    line[std::string(kFactorNames[factor])] = level_name(spec, factor, levels[factor]);
-  const GridLevel& grid = spec.grids[levels[kFactors - 1]];
+  for (const auto factor : each_below(kFactors))
+    line[std::string(sweep::kFactorNames[factor])] = level_name(spec, factor, levels[factor]);
+  const sweep::GridLevel& grid = spec.grids[levels[kFactors - 1]];
   line["points"] = grid.columns * grid.rows;
   std::vector<CellResult> done = repetitions;
   std::erase_if(done, [](const CellResult& result) { return result.status != CellStatus::done; });
@@ -87,7 +85,7 @@ using LevelSums = std::map<std::array<std::size_t, 3>, LevelError>;
 
 void add_to(LevelSums& sums, const Levels& levels, const CellResult& r) {
   if (r.status != CellStatus::done) return;
-  for (std::size_t factor = 0; factor < kFactors; ++factor) {
+  for (const auto factor : each_below(kFactors)) {
     const std::size_t grid = levels[kFactors - 1];
     LevelError& error =
         sums.try_emplace({factor, levels[factor], grid}, LevelError{factor, levels[factor], grid})

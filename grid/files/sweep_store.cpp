@@ -42,21 +42,16 @@ std::string line_of(std::uint64_t cell, const CellResult& r) {
 /// Adds a line to the cells, unless it is incomplete or damaged.
 void take_line(std::string_view line, FinishedCells& cells) {
   const std::size_t check = line.rfind(',');
-  if (check == std::string_view::npos || line.substr(check + 1) != check_of(line.substr(0, check)))
-    return;
-  const auto next_word = [&line] {
-    const std::string_view word = line.substr(0, line.find(','));
-    line.remove_prefix(word.size() + 1);
-    return word;
-  };
-  const auto cell = static_cast<std::size_t>(number_of(next_word()).value());
+  if (check == npos || line.substr(check + 1) != check_of(line.substr(0, check))) return;
+  const auto cell = static_cast<std::size_t>(number_of(take_until(line, ',')).value());
   CellResult result;
-  const std::string_view status = next_word();
+  const std::string_view status = take_until(line, ',');
   for (const CellStatus known :
        {CellStatus::done, CellStatus::no_map, CellStatus::not_reached, CellStatus::no_answer}) {
     if (status == name(known)) result.status = known;
   }
-  for (const auto& [name, error] : kCellErrors) result.*error = number_of(next_word()).value();
+  for (const auto& [name, error] : kCellErrors)
+    result.*error = number_of(take_until(line, ',')).value();
   if (cell < cells.size()) cells[cell] = result;
 }
 

@@ -27,7 +27,7 @@ ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {
   SettingTexts texts;
   for (const auto& [section, settings] : json.items()) {
     if (!settings.is_array()) continue;
-    for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (const auto i : each_index(settings)) {
       const Json& setting = settings[i];
       if (!setting.is_object() || !setting.contains("key") || !setting.contains("value")) continue;
       texts[in_small_letters(section + "/" + text_of(setting.at("key")))] = {

@@ -95,4 +95,5 @@ FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 namespace chaintrue {
 using model::BeltMachine;
 using model::FramePoint;
+using model::Orientation;
 }  // namespace chaintrue

@@ -48,3 +48,8 @@ struct Controller {
 };
 
 }  // namespace chaintrue::model
+
+/// Exported: this name is used throughout chaintrue.
+namespace chaintrue {
+using model::ControllerKind;
+}  // namespace chaintrue

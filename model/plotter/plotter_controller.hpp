@@ -44,3 +44,8 @@ using ByCommand = Dual<2>;
     const PlotterMachine& as_set, BedPoint command);
 
 }  // namespace chaintrue::model
+
+/// Exported: this name is used throughout chaintrue.
+namespace chaintrue {
+using model::PlotterFirmware;
+}  // namespace chaintrue

@@ -8,19 +8,13 @@
 namespace chaintrue::cli {
 namespace {
 
-using diagnosis::BeltPlacePicture;
-using diagnosis::BeltsFindings;
-using model::Belt;
-using model::kBelts;
-using report::number_column;
 using report::signed_column;
-using report::text_column;
 
 /// A fit as a diagnosis without causes: the same picture.
 BeltsFindings findings_of(const BeltsFit& fit) {
   BeltsFindings found;
   found.machine = fit.machine;
-  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+  for (const auto i : each_index(fit.coordinates)) {
     const grid::AnchorCoordinate& c = fit.coordinates[i];
     found.coordinates[i] = {c.name, c.stated_mm, c.fitted_mm, c.fitted_mm, c.sigma_mm};
   }
@@ -78,10 +72,10 @@ Section places_section(const FittedBelts& fitted) {
                   number_column("y", 10, 1), number_column("read minus fitted, mm:   tl", 30),
                   number_column("tr", 8), number_column("bl", 8), number_column("br", 8)},
       .is_headed = true};
-  for (std::size_t k = 0; k < fit.places.size(); ++k) {
+  for (const auto k : each_index(fit.places)) {
     const grid::FittedPlace& place = fit.places[k];
     Row& row = table.rows.emplace_back();
-    row.cells = {static_cast<double>(1 + grid::index_in_file(fitted.indices, k)), place.at.x_mm,
+    row.cells = {as_double(1 + grid::index_in_file(fitted.indices, k)), place.at.x_mm,
                  place.at.y_mm};
     for (const Belt belt : kBelts) {
       const auto& residual = place.belts[belt];
@@ -94,7 +88,7 @@ Section places_section(const FittedBelts& fitted) {
   return section;
 }
 
-Section taped_section(const grid::HolesWithBelts& holes) {
+Section taped_section(const HolesWithBelts& holes) {
   Table table{.columns = {text_column("Distance", 14),
                           number_column("taped", 8, 1),
                           signed_column("off, mm", 10),
@@ -105,10 +99,9 @@ Section taped_section(const grid::HolesWithBelts& holes) {
               .is_headed = true,
               .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {
-    table.rows.push_back(
-        report::row_with_flag({distance.words, distance.measured_mm, distance.residual_mm,
-                               distance.left_out_mm, distance.left_out_sigma_mm},
-                              distance.rejected, "*"));
+    table.add({distance.words, distance.measured_mm, distance.residual_mm, distance.left_out_mm,
+               distance.left_out_sigma_mm},
+              distance.rejected, "*");
   }
   return {"Holes on the sheet", {std::move(table)}, false, Detail::verbose};
 }
@@ -142,7 +135,7 @@ Document anchors_document(const FittedBelts& fitted, std::string_view name,
   Document document;
   document.title = fmt::format("Anchors: {}", name.empty() ? source : name);
   document.subtitle = fmt::format("{}, {} places", fit.machine.name, fit.places.size());
-  const auto error = grid::error_of_belts(fit, fitted.holes);
+  const auto error = error_of_belts(fit, fitted.holes);
   put_the_verdict(fitted, error, document);
   document.remarks = agreement_section(fitted, error);
   if (!fit.places.empty()) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "grid/belts/scale_by_tape.hpp"
-#include "grid/containers.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/belt_effects.hpp"
 #include "tools/cli/map_words.hpp"
@@ -19,25 +18,23 @@ std::string share_in_words(double share, double sigma) {
 
 /// Words for a cause; empty if it is not in the belts' table.
 std::string sized(const grid::CauseInAnchorFit& cause) {
-  const model::effects::Effect* effect =
-      model::effects::find_effect(model::belts::belt_effects(), cause.effect);
+  const Effect* effect = effects::find_effect(model::belts::belt_effects(), cause.effect);
   if (effect == nullptr) return {};
   diagnosis::CauseId id{effect};
-  for (const model::effects::EffectSide side : id.effect->sides) {
-    if (model::effects::name(side) == cause.side) id.side = side;
+  for (const EffectSide side : id.effect->sides) {
+    if (effects::name(side) == cause.side) id.side = side;
   }
   const std::string size(id.effect->parameters.front().name);
-  return fmt::format(
-      "{}{} ({}; {})", id.effect->cause, diagnosis::side_words(id),
-      diagnosis::in_workshop_units(id, {size, cause.parameters.at(size), cause.sigma}),
-      diagnosis::percent(cause.probability));
+  return fmt::format("{}{} ({}; {})", id.effect->cause, side_words(id),
+                     in_workshop_units(id, {size, cause.parameters.at(size), cause.sigma}),
+                     diagnosis::percent(cause.probability));
 }
 
 /// Yielding under the pull, which every frame shows, and other causes that are more likely than not.
 void list_causes(const BeltsFit& fit, Section& section) {
   constexpr double kLikely = 0.5;
   if (fit.causes.empty()) return;
-  std::vector<std::string> others;
+  Words others;
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
       section.say(
@@ -87,7 +84,7 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
     // To within a twentieth of a turn, which a bad reading reaches by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     section.say("Left out: the {} belt at point {}, {:.1f} mm {} than predicted by all others{}.",
-                model::words(bad.belt), number_of(fitted, bad.point), std::abs(bad.residual_mm),
+                words(bad.belt), number_of(fitted, bad.point), std::abs(bad.residual_mm),
                 bad.residual_mm > 0.0 ? "longer" : "shorter",
                 is_whole
                     ? fmt::format(", {:.0f} whole turn{} of the encoder",
@@ -103,8 +100,7 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
 }
 
 std::string what_tells_the_scale(const FittedBelts& fitted) {
-  const auto best =
-      fitted.belts ? grid::distance_for_scale(*fitted.belts, fitted.fit) : std::nullopt;
+  const auto best = fitted.belts ? distance_for_scale(*fitted.belts, fitted.fit) : std::nullopt;
   if (!best) {
     return "Tape one long distance, between two anchors or two holes that were cut, and add it to "
            "the file's \"distances\".";
@@ -131,7 +127,7 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
       fit.scale->factor, fit.scale->sigma, 1000.0 * (fit.scale->factor - 1.0));
   if (fitted.belts == nullptr) return;
   List taped;
-  for (std::size_t i = 0; i < fitted.belts->distances.size(); ++i) {
+  for (const auto i : each_index(fitted.belts->distances)) {
     const grid::BeltDistance& distance = fitted.belts->distances[i];
     taped.items.push_back(
         {fmt::format("{} to {}: taped {:.1f} mm, {:+.2f} mm from the fit",
@@ -141,7 +137,7 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
   section.blocks.emplace_back(std::move(taped));
 }
 
-void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
+void say_the_holes(const HolesWithBelts& holes, Section& section) {
   section.say("Holes: {} distances, which agree with each other to about {} mm.",
               holes.distances.size(), about_mm(holes.left_out_rms_mm));
   section.say(fmt::format("Each distance is predicted from all others to {:.2f} mm rms; tape and "
@@ -171,8 +167,7 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
 }
 
 double least_known_mm(const BeltsFit& fit) {
-  return grid::max_element(fit.coordinates, grid::ascending(&grid::AnchorCoordinate::sigma_mm))
-      ->sigma_mm;
+  return max_element(fit.coordinates, grid::ascending(&grid::AnchorCoordinate::sigma_mm))->sigma_mm;
 }
 
 }  // namespace
@@ -214,7 +209,7 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<BeltsEr
       fmt::format(
           "The machine's formula (Find Anchors fit: rms) gives {:.2f} mm, because it divides "
           "by all {} readings although places and anchors use {} degrees of freedom.",
-          fit.rms_mm, readings, readings - grid::as_size(fit.checks)),
+          fit.rms_mm, readings, readings - as_size(fit.checks)),
       Detail::verbose);
   if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
     section.say(fmt::format("The machine printed rms {:.2f} mm and max {:.2f} mm.",

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "grid/containers.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -119,7 +118,7 @@ VerbParts parts_of(CLI::App& verb) {
   for (CLI::App* below : verb.get_subcommands([](CLI::App*) { return true; })) {
     // A group of options has no name and belongs to its verb.
     if (below->get_name().empty()) {
-      grid::append_all(parts.options, parts_of(*below).options);
+      append_all(parts.options, parts_of(*below).options);
     } else {
       parts.verbs.push_back(below);
     }
@@ -127,16 +126,16 @@ VerbParts parts_of(CLI::App& verb) {
   return parts;
 }
 
-std::vector<std::string> long_names(const std::vector<CLI::Option*>& options) {
-  std::vector<std::string> names;
+Words long_names(const std::vector<CLI::Option*>& options) {
+  Words names;
   for (const CLI::Option* option : options) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
 }
 
-std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs) {
-  return grid::mapped(verbs, [](const CLI::App* verb) { return verb->get_name(); });
+Words names_of(const std::vector<CLI::App*>& verbs) {
+  return mapped(verbs, [](const CLI::App* verb) { return verb->get_name(); });
 }
 
 void usage_error(const std::string& verb, const std::string& sentence) {
@@ -161,7 +160,7 @@ void OptionProblems::take_from(const std::function<void()>& check) {
   try {
     check();
   } catch (const InputError& error) {
-    grid::append_all(problems_, error.problems());
+    append_all(problems_, error.problems());
   }
 }
 

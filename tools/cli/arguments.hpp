@@ -38,8 +38,7 @@ class Option;
 
 namespace chaintrue::cli {
 
-/// Words of a command line: all of them, or those given for one option.
-using Words = std::vector<std::string>;
+using files::Range;
 
 /// The command's exit codes, on which scripts may rely.
 enum ExitCode {
@@ -134,13 +133,13 @@ struct Value {
   Value(bool& flag);
   /// A double or a whole number, or optional of either.
   template <class Number>
-  Value(Number& number, const files::Range& range)
+  Value(Number& number, const Range& range)
       : Value(
             range, std::is_integral_v<Number>,
             [&number](double given) { number = static_cast<Number>(given); },
             static_cast<double>(number)) {}
   template <class Number>
-  Value(std::optional<Number>& number, const files::Range& range)
+  Value(std::optional<Number>& number, const Range& range)
       : Value(range, std::is_integral_v<Number>,
               [&number](double given) { number = static_cast<Number>(given); }) {}
   /// A word, of which `named` knows the meaning. \param usual the default's word
@@ -154,7 +153,7 @@ struct Value {
           return known.has_value();
         }) {}
   /// \param count how many numbers are taken; 0: any
-  Value(std::vector<double>& numbers, const files::Range& range, int count = 0);
+  Value(std::vector<double>& numbers, const Range& range, int count = 0);
 
   /// Declares an option that sets the variable.
   std::function<CLI::Option*(Verb verb, const std::string& names, const std::string& help)> declare;
@@ -164,7 +163,7 @@ struct Value {
   [[nodiscard]] Value with(Change change) const;
 
  private:
-  Value(const files::Range& range, bool is_whole, Take take, std::optional<double> usual = {});
+  Value(const Range& range, bool is_whole, Take take, std::optional<double> usual = {});
   Value(std::string usual, std::string expected, std::function<bool(const std::string&)> take);
 };
 Value required(const Value& value);
@@ -278,8 +277,8 @@ struct VerbParts {
   std::vector<CLI::App*> verbs;
 };
 VerbParts parts_of(CLI::App& verb);
-std::vector<std::string> long_names(const std::vector<CLI::Option*>& options);
-std::vector<std::string> names_of(const std::vector<CLI::App*>& verbs);
+Words long_names(const std::vector<CLI::Option*>& options);
+Words names_of(const std::vector<CLI::App*>& verbs);
 
 /// The run of the verb that was chosen.
 Run& chosen_run();

@@ -17,20 +17,17 @@
 namespace chaintrue::cli {
 namespace {
 
-using report::number_column;
-using report::text_column;
-
 // The result of a check of a map or of anchors, as a document.
 
 /// `what` is the table's heading.
 Table table_of(std::string what, bool has_sign) {
-  return {.columns = {text_column(std::move(what), 30),
+  return {.columns = {report::text_column(std::move(what), 30),
                       {.heading = "mm", .is_number = true, .has_sign = has_sign, .width = 10},
-                      number_column("+-", 10)},
+                      report::number_column("+-", 10)},
           .is_headed = true};
 }
 
-Document document_of(const grid::Check& check, Table table) {
+Document document_of(const Check& check, Table table) {
   Document document;
   document.title = "Check";
   document.verdict = {check.sentence};
@@ -49,21 +46,20 @@ Document document_of(const grid::Check& check, Table table) {
 }
 
 /// Each residual.
-Document map_check_document(const grid::Check& check) {
+Document map_check_document(const Check& check) {
   Table table = table_of("Measured less map", true);
   for (const grid::CheckResidual& one : check.residuals)
-    table.rows.push_back({{one.name, one.residual_mm, one.sigma_mm}});
+    table.add({one.name, one.residual_mm, one.sigma_mm});
   Document document = document_of(check, std::move(table));
   for (const std::string& note : check.notes) document.remarks.say(note);
   return document;
 }
 
 /// Each place with the rms residual of its belts.
-Document anchors_check_document(const grid::Check& check) {
+Document anchors_check_document(const Check& check) {
   Table table = table_of("Error of one belt", false);
   for (const grid::CheckUnit& place : check.units) {
-    table.rows.push_back(
-        {{place.name, place.rms_mm(check.residuals), place.sigma_mm(check.residuals)}});
+    table.add({place.name, place.rms_mm(check.residuals), place.sigma_mm(check.residuals)});
   }
   return document_of(check, std::move(table));
 }
@@ -71,7 +67,7 @@ Document anchors_check_document(const grid::Check& check) {
 struct CheckCommand {
   std::string map;
   GridInput input;
-  files::TapeOptions tape;
+  TapeOptions tape;
   /// The controller's settings when the new points were commanded.
   std::string settings;
   /// Further files of new points.
@@ -83,7 +79,7 @@ struct CheckCommand {
 
 /// A check with its page, its numbers (JSON), and the next command.
 struct Answer {
-  grid::Check check;
+  Check check;
   Document document;
   std::string numbers;
   Words next;
@@ -92,7 +88,7 @@ struct Answer {
 /// For a valid map its error; after re-zeroing, and if the points do not decide, a few more points;
 /// a map that is no longer valid is replaced. \param is_after the map is for numbers that were
 /// typed in
-Words next_of(const grid::Check& check, const CheckCommand& command, bool is_after) {
+Words next_of(const Check& check, const CheckCommand& command, bool is_after) {
   if (check.settings_have_changed && !is_after) {
     return {"export",      "groundcontrol",        command.map, "-o", "settings.ini",
             "--map-after", after_name(command.map)};
@@ -108,29 +104,29 @@ Words next_of(const grid::Check& check, const CheckCommand& command, bool is_aft
 
 /// For a file with a machine whose controller has settings other than the map's: its commands used
 /// these.
-void say_other_settings(const CompensationMap& map, const grid::Measured& measured) {
+void say_other_settings(const CompensationMap& map, const Measured& measured) {
   if (map.machine() == nullptr) return;
   const ControllerKind kind = map.machine()->controller.kind;
   // Others have none: they depend on the motors, which a fit changes.
   if (kind != ControllerKind::maslow_classic && kind != ControllerKind::holey) return;
-  for (const grid::MeasuredFile& file : measured.files()) {
+  for (const MeasuredFile& file : measured.files()) {
     if (!file.machine() || file.machine()->controller.kind != kind) continue;
-    const auto changes = files::changed_settings(files::settings_in_force(*map.machine()),
-                                                 files::settings_in_force(*file.machine()));
+    const auto changes = changed_settings(files::settings_in_force(*map.machine()),
+                                          files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
     say("The machine's settings in {} differ from the map's ({}); those in the file are used. Give "
         "the controller's settings with --settings.",
-        file.name.empty() ? "the new points" : file.name, files::in_words(changes));
+        file.name.empty() ? "the new points" : file.name, in_words(changes));
   }
 }
 
 Answer check_of_map(const CheckCommand& command, const InputFiles& files, const InputFile& map) {
   const CompensationMap as_measured = load_map(map);
-  std::optional<model::ControllerSettings> before = settings_before(command.map);
+  std::optional<ControllerSettings> before = settings_before(command.map);
   const bool is_after = before.has_value();
   if (!command.settings.empty() && as_measured.machine() != nullptr)
     before = as_measured.machine()->controller.settings;
-  grid::Measured measured;
+  Measured measured;
   for (const InputFile& file : files)
     measured.add(load_measured(file, command.input, command.tape, MeasuredUse::check,
                                as_measured.machine()));
@@ -139,8 +135,7 @@ Answer check_of_map(const CheckCommand& command, const InputFiles& files, const 
       command.settings.empty()
           ? as_measured
           : with_settings_of(command.settings, command.map, as_measured, measured);
-  grid::Check check =
-      value_of(grid::check_map(in_force, measured, shown_progress()), files.front().name);
+  Check check = value_of(check_map(in_force, measured, shown_progress()), files.front().name);
   if (auto changed = with_typed_settings(in_force, measured, check, before))
     check = *std::move(changed);
   return {check, map_check_document(check), files::write_map_check(check),
@@ -150,13 +145,12 @@ Answer check_of_map(const CheckCommand& command, const InputFiles& files, const 
 /// Valid anchors are reported; others are diagnosed.
 Answer check_of_anchors(const CheckCommand& command, const InputFiles& files,
                         const InputFile& anchors) {
-  const files::FittedAnchors loaded = load_anchors(anchors);
+  const FittedAnchors loaded = load_anchors(anchors);
   require_kind(files.front(), {FileKind::belts},
                "anchors are checked only against new belt lengths; fit holes and belts together "
                "(chaintrue fit BELTS --with HOLES)");
-  const files::ReadBelts read = load_belts(files.front(), "a check");
-  const grid::Check check =
-      value_of(grid::check_anchors(loaded.fit, read.belts), files.front().name);
+  const ReadBelts read = load_belts(files.front(), "a check");
+  const Check check = value_of(check_anchors(loaded.fit, read.belts), files.front().name);
   return {check, anchors_check_document(check), files::write_anchors_check(check),
           check.is_valid_as_it_is()
               ? Words{"report", command.map, "-o", "anchors.html"}
@@ -171,11 +165,8 @@ int run_check(Verb verb, const CheckCommand& command) {
   verb.refuse_idle_options(map.fact() | (facts_of(files) & (of_belts ? facts::table : facts::any)));
   const Answer answer =
       of_belts ? check_of_anchors(command, files, map) : check_of_map(command, files, map);
-  Outputs outputs = {
-      {command.output, command.json ? answer.numbers : report::render_text(answer.document)}};
-  if (!command.report.empty())
-    outputs.push_back({command.report, report::render_html(answer.document)});
-  write_outputs(outputs);
+  write_outputs({{command.output, command.json ? answer.numbers : render_text(answer.document)},
+                 {command.report, render_html(answer.document)}});
   say_next(answer.next);
   return answer.check.is_valid_as_it_is() ? kDone : kCheckFailed;
 }

@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "grid/containers.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/typeset.hpp"
 
@@ -35,7 +34,7 @@ std::vector<Command> commands_of(CLI::App& app, const Words& words = {}) {
   for (CLI::App* verb : command.parts.verbs) {
     Words below = words;
     below.push_back(verb->get_name());
-    grid::append_all(all, commands_of(*verb, below));
+    append_all(all, commands_of(*verb, below));
   }
   return all;
 }
@@ -141,7 +140,7 @@ std::string troff(const std::string& text) {
 }
 
 std::string item_of(const CLI::Option& option) {
-  std::vector<std::string> names;
+  Words names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
   if (names.empty()) names.push_back(option.get_name());
@@ -151,7 +150,7 @@ std::string item_of(const CLI::Option& option) {
 
 std::string manual_of(const Command& command) {
   Words words = {"chaintrue"};
-  grid::append_all(words, command.words);
+  append_all(words, command.words);
   const std::string title = fmt::format("{}", fmt::join(words, "-"));
   std::string text =
       fmt::format(".TH \"{}\" 1 \"\" \"chaintrue {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n",

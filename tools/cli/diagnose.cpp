@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/order_search.hpp"
@@ -21,7 +20,6 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/names.hpp"
-#include "grid/files/sources.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "grid/threads/use_threads.hpp"
@@ -33,7 +31,7 @@ namespace {
 
 struct DiagnoseCommand {
   GridInput input;
-  files::TapeOptions tape;
+  TapeOptions tape;
   Words with;
   std::string output;
   std::string report;
@@ -53,35 +51,35 @@ void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
   const auto refuse_order = [&command](const std::string& expected, ProblemKind kind) {
     refuse("command line", "--assume-order", command.assume_order, expected, kind);
   };
-  if (grid::any_of(measured.points, [](const auto& point) { return point.order.has_value(); })) {
+  if (any_of(measured.points, &grid::MeasuredPoint::order)) {
     refuse_order("to be left out, because these points have the order of their visits",
                  ProblemKind::contradiction);
   }
-  const auto numbers = grid::visit_numbers(
-      measured.points, *files::named(files::kVisitingOrders, command.assume_order));
+  const auto numbers =
+      visit_numbers(measured.points, *files::named(files::kVisitingOrders, command.assume_order));
   if (!numbers) refuse_order(numbers.error(), ProblemKind::bad_syntax);
-  for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
+  for (const auto i : each_index(measured.points)) measured.points[i].order = (*numbers)[i];
 }
 
 /// The cost grows with the square of the number and more (docs/reliability.md): these take half a
 /// minute, and more would change no name.
 constexpr std::size_t kMostDiagnosed = 1200;
 
-void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::string& path) {
+void refuse_too_many_to_diagnose(const Measured& measured, const std::string& path) {
   const auto [points, distances, holes] = counts_of(measured);
   if (points + distances <= kMostDiagnosed) return;
   const std::string counted = distances == 0 ? fmt::format("{} points", points)
                               : points == 0
                                   ? fmt::format("{} distances", distances)
                                   : fmt::format("{} points and {} distances", points, distances);
-  throw Failed(files::name_in_messages(path), "too_many",
+  throw Failed(name_in_messages(path), "too_many",
                fmt::format("{} are more than a diagnosis accepts ({}): leave some out, evenly over "
                            "the bed, and keep those measured twice; chaintrue fit accepts them all",
                            counted, kMostDiagnosed));
 }
 
 /// Readings more accurate than the simulation over a bed.
-void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
+void note_fine_readings(const Measured& measured, Diagnosis& found) {
   constexpr double kFinestMm = 0.01;
   for (const auto* own : measured.grids()) {
     if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
@@ -104,8 +102,8 @@ diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
 /// those below.
 Diagnosis named(tl::expected<Diagnosis, diagnosis::DiagnosisFailure> result,
                 const DiagnoseCommand& command) {
-  Diagnosis found = value_of(std::move(result), files::name_in_messages(command.input.grid));
-  if (found.grid_name.empty()) found.grid_name = files::name_without_folders(command.input.grid);
+  Diagnosis found = value_of(std::move(result), name_in_messages(command.input.grid));
+  if (found.grid_name.empty()) found.grid_name = name_without_folders(command.input.grid);
   return found;
 }
 
@@ -115,19 +113,18 @@ diagnosis::Transfer held_out(const DiagnoseCommand& command, const MeasuredGrid&
   GridInput other = command.input;
   other.grid = command.held_out;
   const MeasuredGrid to = read_grid_input(other);
-  auto transferred =
-      value_of(diagnosis::transfer(measured, found, to), files::name_in_messages(command.held_out));
+  auto transferred = value_of(transfer(measured, found, to), name_in_messages(command.held_out));
   if (transferred.to.empty())
-    transferred.to = to.name.empty() ? files::name_without_folders(command.held_out) : to.name;
+    transferred.to = to.name.empty() ? name_without_folders(command.held_out) : to.name;
   return transferred;
 }
 
 /// Grids and holes; an order that was assumed is put into `measured`.
-Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
+Diagnosis diagnosed(const DiagnoseCommand& command, Measured& measured) {
   if (MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
   refuse_too_many_to_diagnose(measured, command.input.grid);
   grid::keep_freed_memory();
-  Diagnosis found = named(diagnosis::diagnose(measured, diagnosis_options(command)), command);
+  Diagnosis found = named(diagnose(measured, diagnosis_options(command)), command);
   note_fine_readings(measured, found);
   if (!command.assume_order.empty()) {
     found.notes.insert(
@@ -143,7 +140,7 @@ Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
 /// Belts are diagnosed by themselves, on the machine in their own file.
 Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
   const std::vector<std::size_t> without = points_left_out(command.without);
-  const files::ReadBelts read = load_belts(file, "a diagnosis", without);
+  const ReadBelts read = load_belts(file, "a diagnosis", without);
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
@@ -152,16 +149,15 @@ Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file)
                              "evenly over the sheet; chaintrue fit accepts them all",
                              read.belts.points.size(), kMostPlaces));
   }
-  return named(diagnosis::diagnose(read.belts, diagnosis_options(command),
-                                   files::indices_without(read.belts.points.size(), without)),
+  return named(diagnose(read.belts, diagnosis_options(command),
+                        files::indices_without(read.belts.points.size(), without)),
                command);
 }
 
 /// A test drawing is diagnosed alone, with the plotter in its file.
 Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
-  return named(
-      diagnosis::diagnose(files::parse_drawing(file.text, file.name), diagnosis_options(command)),
-      command);
+  return named(diagnose(files::parse_drawing(file.text, file.name), diagnosis_options(command)),
+               command);
 }
 
 // The additional files of a diagnosis.
@@ -169,14 +165,14 @@ Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& fil
 /// The grid for a fit on the extended machine: true positions of marks, readings without effects of
 /// the visit. An assumed order is not written.
 std::string corrected_grid_text(const DiagnoseCommand& command, const Diagnosis& found,
-                                const grid::Measured& input) {
+                                const Measured& input) {
   const auto ordered = found.visiting_order
                            ? diagnosis::visited_in(input, found.visiting_order->order)
                            : std::nullopt;
   MeasuredGrid measured = *(ordered ? *ordered : input).grids().front();
   measured.machine = found.extended_machine;
-  grid::append_all(measured.machine->effects, found.data_corrections);
-  auto corrected = grid::corrected_data(measured);
+  append_all(measured.machine->effects, found.data_corrections);
+  auto corrected = corrected_data(measured);
   if (!corrected) throw InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});
   for (auto& point : corrected->grid.points) {
     if (ordered || !command.assume_order.empty()) point.order.reset();
@@ -186,11 +182,11 @@ std::string corrected_grid_text(const DiagnoseCommand& command, const Diagnosis&
 
 /// The calibrated machine with the named causes.
 std::string extended_machine_text(const Diagnosis& found, const std::string& source) {
-  std::vector<std::string> in_here;
+  Words in_here;
   for (const auto& effect : found.extended_machine.effects) {
     if (effect.probability) in_here.push_back(cause_title(effect));
   }
-  std::vector<std::string> comments = {
+  Words comments = {
       fmt::format("Made by chaintrue diagnose from {}: calibrated settings, with the causes {}.",
                   source, in_here.empty() ? "none" : fmt::format("{}", fmt::join(in_here, "; ")))};
   for (const auto& cause : causes_left_out(found))
@@ -205,8 +201,8 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
 /// The likeliest law as a file of a declared effect, or a sentence that explains why there is none.
 tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
   const std::vector<diagnosis::Law> none;
-  const auto declaration = diagnosis::declaration_of(
-      found.unexplained ? found.unexplained->laws : none, found.extended_machine.bed);
+  const auto declaration = declaration_of(found.unexplained ? found.unexplained->laws : none,
+                                          found.extended_machine.bed);
   if (!declaration) return tl::unexpected(declaration.error());
   return files::write_effect(*declaration);
 }
@@ -216,8 +212,8 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next(report_words(command.output));
   Words words;
-  const bool parts_causes = grid::any_of(found.next_measurements, [&](const auto& next) {
-    return !found.belts || next.kind != diagnosis::MeasurementKind::distance;
+  const bool parts_causes = any_of(found.next_measurements, [&](const auto& next) {
+    return !found.belts || next.kind != MeasurementKind::distance;
   });
   if (found.belts && (command.output.empty() || !parts_causes || !command.without.empty())) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
@@ -242,13 +238,13 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   // Belts and drawings are diagnosed alone, whatever is given with them.
   const bool is_alone = file.kind == FileKind::belts || file.kind == FileKind::drawing;
   verb.refuse_idle_options(is_alone ? file.fact() : facts_of(opened));
-  grid::Measured input;
+  Measured input;
   if (!is_alone) input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
   const Diagnosis found = !is_alone                      ? diagnosed(command, input)
                           : file.kind == FileKind::belts ? diagnosed_belts(command, file)
                                                          : diagnosed_drawing(command, file);
-  const std::string source = files::name_without_folders(command.input.grid);
-  const grid::Provenance origin = made_by(verb);
+  const std::string source = name_without_folders(command.input.grid);
+  const Provenance origin = made_by(verb);
   const std::string written = files::write_diagnosis(found, origin);
   Outputs outputs;
   const auto add = [&outputs](const std::string& path, auto&& text) {
@@ -258,24 +254,23 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   Document document =
       diagnosis_document(found, source, command.report.empty() ? Detail::verbose : Detail::page);
   add_made_by(origin, document.sections);
-  add(command.report, [&] { return report::render_html(document); });
+  add(command.report, [&] { return render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(found, source); });
   add(command.corrected_grid, [&] { return corrected_grid_text(command, found, input); });
   tl::expected<std::string, std::string> law;
   if (!command.law.empty()) law = law_text(found);
   if (law) outputs.push_back({command.law, *law});
-  const bool is_stdout_taken =
-      grid::any_of(outputs, [](const auto& output) { return output.path == "-"; });
+  const bool is_stdout_taken = any_of(outputs, having(&files::OutputFile::path, "-"));
   write_outputs(outputs);
   if (command.json && !is_stdout_taken) {
     fmt::print("{}", written);
   } else {
-    fmt::print(is_stdout_taken ? stderr : stdout, "{}", report::render_text(document));
+    fmt::print(is_stdout_taken ? stderr : stdout, "{}", render_text(document));
   }
   if (!command.report.empty() && command.report != "-")
     say("The report is {}: open it in any browser.", command.report);
   if (!law) {
-    say("{}: {}", files::name_in_messages(command.input.grid), law.error());
+    say("{}: {}", name_in_messages(command.input.grid), law.error());
     return kNotSupportedOrOutside;
   }
   say_next_of(command, found);

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/raster.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 
 namespace chaintrue::cli {
-
-using diagnosis::BeltPlacePicture;
-using diagnosis::BeltsFindings;
-using report::number_column;
-using report::text_column;
 
 Section frame_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
@@ -34,7 +28,7 @@ Section anchors_section(const Diagnosis& found) {
               .caption = kAnchorsCaption,
               .is_headed = true};
   for (const auto& c : found.belts->coordinates) {
-    table.rows.push_back({{coordinate_title(c.name), c.before_mm, c.fitted_mm, c.sigma_mm}});
+    table.add({coordinate_title(c.name), c.before_mm, c.fitted_mm, c.sigma_mm});
     if (c.stated_mm) table.rows.back().cells.emplace_back(*c.stated_mm);
   }
   return {"The anchors, mm", {std::move(table)}};
@@ -46,7 +40,7 @@ Section belts_improvement_section(const Diagnosis& found) {
                           number_column("with the causes", 18)},
               .is_headed = true};
   const auto row = [&table](const char* what, double before, double after) {
-    table.rows.push_back({{what, before, after}});
+    table.add({what, before, after});
   };
   row("error of one belt's reading", belts.spread_before_mm, belts.residual_sigma_mm);
   row("rms over all readings", belts.rms_before_mm, belts.rms_mm);
@@ -77,20 +71,16 @@ std::vector<Figure> figures_of_belts(const Diagnosis& found) {
           {fmt::format("{:.2f} mm", belts.residual_sigma_mm), "with what is named"}};
 }
 
-using diagnosis::DrawnSetting;
-using diagnosis::DrawnValue;
-
 Section drawn_settings_section(const Diagnosis& found) {
   Table table{.columns = {text_column("setting", 24),
                           number_column("as set", 10),
                           number_column("found", 10),
                           number_column("+-", 8),
                           {.gap = 2}}};
-  for (const DrawnSetting& own : found.drawing->settings) {
+  for (const diagnosis::DrawnSetting& own : found.drawing->settings) {
     const auto words = diagnosis::parameter_words(own.name);
-    table.rows.push_back(report::row_with_flag(
-        {fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma}, own.off,
-        "off"));
+    table.add({fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma},
+              own.off, "off");
   }
   return {.title = "Settings of the plotter", .blocks = {std::move(table)}};
 }
@@ -100,30 +90,23 @@ Section drawn_measures_section(const Diagnosis& found) {
                           number_column("measured", 10),
                           number_column("explained", 11),
                           {.gap = 2}}};
-  for (const DrawnValue& own : found.drawing->measures) {
-    table.rows.push_back(report::row_with_flag({own.name, own.measured_mm, own.explained_mm},
-                                               own.rejected, "left out"));
+  for (const diagnosis::DrawnValue& own : found.drawing->measures) {
+    table.add({own.name, own.measured_mm, own.explained_mm}, own.rejected, "left out");
   }
   return {.title = "What was measured", .blocks = {std::move(table)}};
 }
 
 Light drawn_settings_light(const Diagnosis& found) {
-  const std::size_t off =
-      grid::count_where(found.drawing->settings, [](const DrawnSetting& own) { return own.off; });
+  const std::size_t off = count_where(found.drawing->settings, &diagnosis::DrawnSetting::off);
   if (off == 0) return {Tone::good, "Settings right?", "yes"};
   return {Tone::caution, "Settings right?", fmt::format("{} off: type them in", off)};
 }
 
-using diagnosis::BeltPlacePicture;
-using diagnosis::BeltsFindings;
-using model::Belt;
-using model::kBelts;
-
 namespace {
 
 /// From Okabe and Ito's palette, distinguishable with every colour vision.
-constexpr model::PerBelt<const char*> kColors = {report::kBeforeColor, report::kAfterColor,
-                                                 report::kFourthColor, report::kThirdColor};
+constexpr PerBelt<const char*> kColors = {report::kBeforeColor, report::kAfterColor,
+                                          report::kFourthColor, report::kThirdColor};
 
 /// The longest stroke of a good reading, as a share of the frame's width.
 constexpr double kLongestStroke = 0.06;
@@ -168,19 +151,18 @@ DataTable anchors_table(const BeltsFindings& found) {
       {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"}};
   for (const Belt belt : kBelts) {
     const model::Anchor& anchor = found.machine.anchors[belt];
-    table.rows.push_back({std::string(model::words(belt)), anchor.x_mm, anchor.y_mm,
+    table.rows.push_back({std::string(words(belt)), anchor.x_mm, anchor.y_mm,
                           sigma_mm(found, belt, 'x'), sigma_mm(found, belt, 'y'),
                           std::string(kColors[belt]), belt == Belt::tl || belt == Belt::bl,
-                          model::is_upper(belt)});
+                          is_upper(belt)});
   }
   return table;
 }
 
-DataTable strokes_table(const BeltsFindings& found,
-                        model::PerBelt<double> BeltPlacePicture::*which) {
+DataTable strokes_table(const BeltsFindings& found, PerBelt<double> BeltPlacePicture::*which) {
   DataTable table{"strokes",
                   {"name", "x_mm", "y_mm", "way_x", "way_y", "off_mm", "words", "color", "is_bad"}};
-  for (std::size_t k = 0; k < found.places.size(); ++k) {
+  for (const auto k : each_index(found.places)) {
     const BeltPlacePicture& place = found.places[k];
     for (const Belt belt : kBelts) {
       const model::Anchor& anchor = found.machine.anchors[belt];
@@ -192,8 +174,7 @@ DataTable strokes_table(const BeltsFindings& found,
       const double longest = 4.0 * kLongestStroke * width_mm(found) / magnification(found);
       table.rows.push_back({fmt::format("point {}", k + 1), place.at.x_mm, place.at.y_mm, x / away,
                             y / away, place.bad[belt] ? std::clamp(off, -longest, longest) : off,
-                            std::string(model::words(belt)), std::string(kColors[belt]),
-                            place.bad[belt]});
+                            std::string(words(belt)), std::string(kColors[belt]), place.bad[belt]});
     }
   }
   return table;
@@ -202,11 +183,11 @@ DataTable strokes_table(const BeltsFindings& found,
 }  // namespace
 
 Chart frame_chart(const BeltsFindings& found, std::string title,
-                  model::PerBelt<double> BeltPlacePicture::*which) {
+                  PerBelt<double> BeltPlacePicture::*which) {
   Chart chart{.specification = "belt_frame", .title = std::move(title)};
   DataTable frame{"frame", {"x_mm", "y_mm"}};
   const auto& a = found.machine.anchors;
-  interp::Rectangle area{};
+  Rectangle area{};
   for (const model::Anchor& corner : {a.bl, a.tl, a.tr, a.br, a.bl}) {
     frame.rows.push_back({corner.x_mm, corner.y_mm});
     grid::take_in(area, {corner.x_mm, corner.y_mm});

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/raster.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
@@ -13,14 +12,11 @@
 namespace chaintrue::cli {
 namespace {
 
-using diagnosis::PointPicture;
-using report::Outline;
-
 constexpr const char* kChains[] = {"left", "right"};
 
 std::vector<Arrow> arrows_of(const Diagnosis& found, Eigen::Vector2d PointPicture::*shift) {
-  return grid::mapped(found.points,
-                      [&](const PointPicture& point) { return arrow_of(point, point.*shift); });
+  return mapped(found.points,
+                [&](const PointPicture& point) { return arrow_of(point, point.*shift); });
 }
 
 struct Panel {
@@ -84,7 +80,7 @@ Chart strip_chart(const Diagnosis& found, const std::vector<Panel>& panels, int 
                              full_mm, clipped_in_words(found, full_mm))};
   DataTable heads{"heads", {"panel", "title", "note"}};
   DataTable points{"points", {"panel", "name", "x_mm", "y_mm", "value_mm", "is_bad"}};
-  for (std::size_t k = 0; k < panels.size(); ++k) {
+  for (const auto k : each_index(panels)) {
     const Panel& panel = panels[k];
     const auto of_chain = [&](const PointPicture& p) { return (p.*panel.residual)[chain]; };
     std::string note = fmt::format("rms {:.2f} mm", summary_of_good(found.points, of_chain).rms_mm);
@@ -93,23 +89,23 @@ Chart strip_chart(const Diagnosis& found, const std::vector<Panel>& panels, int 
           ", the same to {}",
           fixed(correlation(found, &PointPicture::chain_before_mm, panel.residual, chain), 2));
     }
-    heads.rows.push_back({static_cast<double>(k), panel.title, note});
+    heads.rows.push_back({as_double(k), panel.title, note});
     for (const PointPicture& point : found.points) {
-      points.rows.push_back({static_cast<double>(k), point_name(point.index), point.mark.x_mm,
+      points.rows.push_back({as_double(k), point_name(point.index), point.mark.x_mm,
                              point.mark.y_mm, (point.*panel.residual)[chain], point.bad});
     }
   }
   chart.data = {std::move(heads), std::move(points)};
-  chart.signals = report::bed_signals(bed_of(found), arrows_of(found, &PointPicture::before_mm));
+  chart.signals = bed_signals(bed_of(found), arrows_of(found, &PointPicture::before_mm));
   chart.signals.push_back({"largest_mm", std::max(full_mm, 1e-6)});
-  chart.signals.push_back({"panels", static_cast<double>(panels.size())});
+  chart.signals.push_back({"panels", as_double(panels.size())});
   return chart;
 }
 
 }  // namespace
 
-Outline bed_of(const Diagnosis& found) {
-  const interp::Rectangle bed = grid::area_of(found.extended_machine.bed);
+report::Outline bed_of(const Diagnosis& found) {
+  const Rectangle bed = grid::area_of(found.extended_machine.bed);
   return {bed.x_min, bed.x_max, bed.y_min, bed.y_max};
 }
 
@@ -125,8 +121,7 @@ Arrow arrow_of(const PointPicture& point, const Eigen::Vector2d& shift_mm) {
 }
 
 std::string title_of_causes(const Diagnosis& found) {
-  const bool act_together =
-      found.causes.size() > 1 && found.verdict != diagnosis::Verdict::named_set;
+  const bool act_together = found.causes.size() > 1 && found.verdict != Verdict::named_set;
   return act_together ? fmt::format("The {} causes named", found.causes.size())
                       : cause_title(found.causes.front().cause);
 }
@@ -138,7 +133,7 @@ std::string title_of_rival(const Diagnosis& found) {
 namespace {
 
 std::vector<ChartRow> arrow_charts(const Diagnosis& found) {
-  return report::arrow_rows(
+  return arrow_rows(
       bed_of(found), arrows_of(found, &PointPicture::before_mm),
       found.causes.empty() ? std::vector<Arrow>{} : arrows_of(found, &PointPicture::after_mm),
       {"Before: the machine calibrated",
@@ -165,7 +160,7 @@ std::vector<Chart> strip_charts(const Diagnosis& found) {
 Section arrows_section(const Diagnosis& found) {
   if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
   Section section{"What it does to the tool"};
-  grid::append_all(section.blocks, arrow_charts(found));
+  append_all(section.blocks, arrow_charts(found));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_chart(found));
   return section;
 }
@@ -175,7 +170,7 @@ Section signature_section(const Diagnosis& found) {
   section.say(
       "Measured errors next to the effect of the cause, both after refitting the "
       "settings. The cause is right if both pictures agree and only noise remains.");
-  grid::append_all(section.blocks, strip_charts(found));
+  append_all(section.blocks, strip_charts(found));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
   return section;
 }
@@ -195,7 +190,7 @@ Chart next_points_chart(const Diagnosis& found) {
                          percent(place.raises_probability_to)});
   }
   chart.data = {std::move(measured), std::move(next)};
-  chart.signals = report::bed_signals(bed_of(found), marks);
+  chart.signals = bed_signals(bed_of(found), marks);
   return chart;
 }
 

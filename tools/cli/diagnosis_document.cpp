@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "grid/containers.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/sheet.hpp"
@@ -10,8 +9,6 @@
 namespace chaintrue::cli {
 
 namespace {
-
-using diagnosis::Verdict;
 
 /// A verdict at a glance.
 struct VerdictLights {
@@ -53,7 +50,7 @@ Light data_light(const Diagnosis& found) {
 }
 
 void put_the_verdict(const Diagnosis& found, Document& document) {
-  const VerdictLights& lights = kVerdicts[grid::as_size(found.verdict)];
+  const VerdictLights& lights = kVerdicts[as_size(found.verdict)];
   const bool left = is_something_left(found);
   // The error comes first, the same number as a fit begins with.
   document.verdict = {found.tool_today
@@ -149,11 +146,11 @@ std::string_view where_it_goes(const Diagnosis& found) {
       "\"readings\" of either",
       "Points and distances go into the belts' file",
       "Measures go into the drawing's file"};  // by Observations
-  return kGoes[grid::as_size(found.observations)];
+  return kGoes[as_size(found.observations)];
 }
 
 std::string noise_in_words(const Diagnosis& found) {
-  std::vector<std::string> stated;
+  Words stated;
   if (found.stated_noise) {
     stated.push_back(fmt::format(
         "{:g} mm per chain and {:g} mm per mark (one sigma, {:g} degrees of freedom); ",
@@ -170,9 +167,9 @@ std::string noise_in_words(const Diagnosis& found) {
   return fmt::format("Error of the readings, as entered: {}", fmt::join(stated, ""));
 }
 
-std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& bad) {
-  if (bad.of == diagnosis::Observations::belts) return capitalised(bad_belt_in_words(bad));
-  const bool is_drawn = bad.of == diagnosis::Observations::drawing;
+std::string outlier_in_words(const Diagnosis& found, const Outlier& bad) {
+  if (bad.of == Observations::belts) return capitalised(bad_belt_in_words(bad));
+  const bool is_drawn = bad.of == Observations::drawing;
   if (is_drawn || is_distance(found, bad)) {
     return fmt::format(
         "{}: read {} ({:.1f} sigmas)",
@@ -187,9 +184,9 @@ std::string outlier_in_words(const Diagnosis& found, const diagnosis::Outlier& b
 }  // namespace
 
 Section next_section(const Diagnosis& found) {
-  const std::vector<std::string> sentences = follow_ups_in_words(found);
+  const Words sentences = follow_ups_in_words(found);
   List list{.is_numbered = true};
-  for (std::size_t i = 0; i < sentences.size(); ++i)
+  for (const auto i : each_index(sentences))
     list.items.push_back({sentences[i] + chance_then(found, i)});
   Section section{fmt::format("What to measure next (chaintrue plan {} --after diagnosis.json)",
                               files_in_words(found)),
@@ -198,17 +195,16 @@ Section next_section(const Diagnosis& found) {
                           "{}; the command prints the lines.",
                           where_it_goes(found)),
               Detail::page);
-  const bool has_places =
-      grid::any_of(found.next_measurements, [](const auto& next) { return next.mark.has_value(); });
+  const bool has_places = any_of(found.next_measurements, &NextMeasurement::mark);
   if (found.belts) return section;
   if (has_places && !is_of_distances(found)) section.blocks.emplace_back(next_points_chart(found));
-  if (proposes(found, diagnosis::MeasurementKind::distance))
+  if (proposes(found, MeasurementKind::distance))
     section.blocks.emplace_back(next_distances_chart(found));
   return section;
 }
 
 Section settings_section(const Diagnosis& found) {
-  const auto rows = grid::mapped(found.settings, [](const auto& one) {
+  const auto rows = mapped(found.settings, [](const auto& one) {
     return SettingRow{one.setting,    one.stated, one.stated_sigma,
                       one.calibrated, one.sigma,  one.off};
   });
@@ -226,14 +222,14 @@ Section outliers_section(const Diagnosis& found) {
 Section bounds_section(const Diagnosis& found) {
   Table table{{{.width = 34}, {}}, {}, "95 % bounds."};
   for (const auto& bound : found.bounds)
-    table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}});
+    table.add({cause_title(bound.cause), bound_in_words(bound)});
   return {"Looked for, not found: anything larger would have shown", {std::move(table)}};
 }
 
 Section not_testable_section(const Diagnosis& found) {
   Table table{{{.width = 34}, {}}, {}, "They may be present or not."};
   for (const auto& missing : found.not_testable)
-    table.rows.push_back({{cause_title(missing.cause), missing.reason}});
+    table.add({cause_title(missing.cause), missing.reason});
   return {"What these data cannot test", {std::move(table)}};
 }
 

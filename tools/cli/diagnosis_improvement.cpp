@@ -8,8 +8,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using report::number_column;
-
 /// A line of the table.
 struct ImprovementRow {
   std::string_view what;
@@ -62,11 +60,10 @@ Table error_table(const std::vector<ImprovementRow>& rows, double floor_mm,
                    .width = 9}}};
   for (const ImprovementRow& row : rows) {
     const diagnosis::HeldOut& error = *row.held_out;
-    table.rows.push_back(
-        {{row.what, error.rms_mm, fmt::format("{:.2f} to {:.2f}", error.low_mm, error.high_mm),
-          error.percentile_95_mm}});
+    table.add({row.what, error.rms_mm, fmt::format("{:.2f} to {:.2f}", error.low_mm, error.high_mm),
+               error.percentile_95_mm});
   }
-  table.rows.push_back({{"noise of the readings", floor_mm}});
+  table.add({"noise of the readings", floor_mm});
   return table;
 }
 

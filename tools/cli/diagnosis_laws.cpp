@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
@@ -16,9 +15,6 @@ namespace chaintrue::cli {
 namespace {
 
 using diagnosis::Law;
-using diagnosis::LawResidual;
-using diagnosis::LawShape;
-using diagnosis::PointPicture;
 
 constexpr int kCurvePoints = 200;
 /// With more waves than this only one is drawn, with all points on it.
@@ -29,7 +25,7 @@ bool is_folded(const Law& law) {
 }
 
 double degrees_of(const Law& law, double at) {
-  return diagnosis::unit_of(law.of) == "rad" ? at * 180.0 / std::numbers::pi : at;
+  return unit_of(law.of) == "rad" ? at * 180.0 / std::numbers::pi : at;
 }
 
 /// x of a point.
@@ -40,7 +36,7 @@ double drawn(const Law& law, double at) {
 }
 
 std::string axis_title(const Law& law) {
-  const std::string_view unit = diagnosis::unit_of(law.of);
+  const std::string_view unit = unit_of(law.of);
   const std::string_view words = unit == "rad"  ? "degrees"
                                  : unit == "n"  ? "N"
                                  : unit == "mm" ? "mm"
@@ -57,7 +53,7 @@ std::vector<std::pair<double, double>> curve_of(const Law& law) {
   const double span = is_folded(law) ? law.parameters[1].value : law.to - law.from;
   std::vector<double> at;
   for (int k = 0; k <= kCurvePoints; ++k) at.push_back(law.from + span * k / kCurvePoints);
-  if (law.shape == LawShape::step) {
+  if (law.shape == diagnosis::LawShape::step) {
     // Both ends of the step at its place.
     const double place = std::clamp(law.parameters[1].value, law.from, law.to);
     at = {law.from, place - 1e-9 * (law.to - law.from), place, law.to};
@@ -79,7 +75,7 @@ Chart law_chart(const Law& law, bool is_likeliest) {
       .x_title = axis_title(law),
       .first_label = "readings and curve",
       .first_color = is_likeliest ? report::kAfterColor : report::kNeutralColor};
-  for (const LawResidual& point : law.points)
+  for (const diagnosis::LawResidual& point : law.points)
     chart.dots.push_back({point_name(point.index), drawn(law, point.at), point.residual_mm});
   chart.curve = curve_of(law);
   return residual_scatter_chart(chart);
@@ -97,20 +93,20 @@ std::vector<ChartRow> law_rest_charts(const Diagnosis& found) {
   const Law& law = found.unexplained->laws.front();
   std::vector<Arrow> before, after;
   for (const PointPicture& point : found.points) {
-    const auto* own = grid::find_where(law.points, grid::having(&LawResidual::index, point.index));
+    const auto* own = find_where(law.points, having(&diagnosis::LawResidual::index, point.index));
     const Eigen::Vector2d& shift = found.causes.empty() ? point.before_mm : point.after_mm;
     before.push_back(arrow_of(point, shift));
     if (own == nullptr || !own->left_x_mm || !own->left_y_mm) continue;
     after.push_back(arrow_of(point, {*own->left_x_mm, *own->left_y_mm}));
   }
-  return report::arrow_rows(bed_of(found), before, after,
-                            {found.causes.empty() ? "Without it: the machine calibrated"
-                                                  : "Without it: the residual with the causes",
-                             "Arrows from the intended to the actual position of the tool. Grey: "
-                             "one sigma of the noise at that mark.",
-                             "With it, same scale",
-                             "Neighbours that still point the same way show an error that the law "
-                             "does not explain either."});
+  return arrow_rows(bed_of(found), before, after,
+                    {found.causes.empty() ? "Without it: the machine calibrated"
+                                          : "Without it: the residual with the causes",
+                     "Arrows from the intended to the actual position of the tool. Grey: "
+                     "one sigma of the noise at that mark.",
+                     "With it, same scale",
+                     "Neighbours that still point the same way show an error that the law "
+                     "does not explain either."});
 }
 
 /// Hints are worded as hints, and not given for a law that is only possible.
@@ -131,9 +127,8 @@ std::vector<Item> details_of(const Law& law, const Diagnosis& found) {
     details.push_back(
         {fmt::format("probability of this shape: {}", diagnosis::percent(law.shape_probability))});
   }
-  const std::vector<std::string> hints = found.belts
-                                             ? diagnosis::hints_of(law, found.belts->machine)
-                                             : diagnosis::hints_of(law, found.extended_machine);
+  const Words hints =
+      found.belts ? hints_of(law, found.belts->machine) : hints_of(law, found.extended_machine);
   for (const std::string& hint : hints) details.push_back({"a hint: " + hint});
   return details;
 }
@@ -151,7 +146,7 @@ Section laws_section(const Diagnosis& found) {
   Section section{"What the remaining error may depend on", {std::move(list)}};
   if (!laws.front().points.empty()) {
     section.blocks.emplace_back(law_charts(found));
-    if (!found.points.empty()) grid::append_all(section.blocks, law_rest_charts(found));
+    if (!found.points.empty()) append_all(section.blocks, law_rest_charts(found));
   }
   const bool is_claimed = laws.front().probability >= diagnosis::kLawClaimed;
   section.say(is_claimed && found.belts ? "No listed cause explains this."
@@ -171,9 +166,8 @@ Section declared_section(const Diagnosis& found) {
                             ? "denied: with the values in the file it would have shown"
                         : says == Says::open ? "left open: measure more points"
                                              : "not testable with these readings";
-    table.rows.push_back(
-        {{cause_title(cause), words,
-          says == Says::not_testable ? Cell{} : Cell(diagnosis::percent(probability))}});
+    table.add({cause_title(cause), words,
+               says == Says::not_testable ? Cell{} : Cell(diagnosis::percent(probability))});
   }
   return {"Declared effects", {std::move(table)}};
 }

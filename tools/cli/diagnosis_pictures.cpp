@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/synthetic/strength.hpp"
 #include "model/reading_model.hpp"
@@ -16,8 +15,6 @@
 namespace chaintrue::cli {
 
 namespace {
-
-using diagnosis::Cause;
 
 /// The measured places, without a shift.
 struct Places {
@@ -36,12 +33,11 @@ Places places_of(const Diagnosis& found) {
   const bool ordered = has_order(found);
   for (const auto& point : found.points) {
     if (ordered && !point.order) continue;
-    add(point_name(point.index), point.mark,
-        point.order.value_or(static_cast<int>(places.visits.size())));
+    add(point_name(point.index), point.mark, point.order.value_or(as_int(places.visits.size())));
   }
   if (!found.points.empty()) return places;
   for (const auto& hole : found.holes)
-    add("hole " + hole.name, hole.commanded, static_cast<int>(places.visits.size()));
+    add("hole " + hole.name, hole.commanded, as_int(places.visits.size()));
   return places;
 }
 
@@ -62,7 +58,7 @@ std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found, co
     const AppliedEffect applied = diagnosis::applied(cause);
     const auto shifts =
         synthetic::signature(machine_without(found, applied), {applied}, visits).tool_shift_mm();
-    const bool finite = grid::all_of(shifts, [](const auto& shift) { return shift.allFinite(); });
+    const bool finite = all_of(shifts, [](const auto& shift) { return shift.allFinite(); });
     return finite ? std::optional(shifts) : std::nullopt;
   } catch (const std::invalid_argument&) {
     return std::nullopt;
@@ -73,14 +69,13 @@ Chart chart_of(const Diagnosis& found, const Cause& cause, const Places& places,
                const std::vector<Eigen::Vector2d>& shifts) {
   std::vector<Arrow> arrows = places.arrows;
   double largest_mm = 0.0;
-  for (std::size_t i = 0; i < arrows.size(); ++i) {
+  for (const auto i : each_index(arrows)) {
     arrows[i].dx_mm = shifts[i].x();
     arrows[i].dy_mm = shifts[i].y();
     largest_mm = std::max(largest_mm, shifts[i].norm());
   }
   const report::Outline sheet = bed_of(found);
-  Chart chart = report::arrows_chart(sheet, arrows, report::magnification_of(sheet, arrows),
-                                     report::kBeforeColor);
+  Chart chart = arrows_chart(sheet, arrows, magnification_of(sheet, arrows), report::kBeforeColor);
   chart.title = fmt::format("{}: {}", cause_title(cause.cause),
                             sizes_in_words(cause.cause, cause.parameters));
   chart.caption = fmt::format(

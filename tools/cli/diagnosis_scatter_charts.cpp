@@ -7,7 +7,6 @@
 #include <functional>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
@@ -15,9 +14,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using diagnosis::PointPicture;
 using grid::row_of;
-using model::Side;
 
 constexpr const char* kPaidOutColor = report::kThirdColor;
 constexpr const char* kTakenInColor = report::kFourthColor;
@@ -40,15 +37,15 @@ struct Scatter {
 /// Means of the good points in stretches of equal width along x.
 std::vector<std::pair<double, double>> means_of(const Diagnosis& found, const Scatter& scatter) {
   const std::size_t bins = found.points.size() >= 60 ? 10 : 6;
-  const auto all = grid::mapped(
+  const auto all = mapped(
       found.points, [&](const PointPicture& point) { return scatter.x(point, scatter.chain); });
-  const auto [low, high] = grid::minmax_element(all);
+  const auto [low, high] = minmax_element(all);
   std::vector<double> x(bins), y(bins), count(bins);
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const auto i : each_index(all)) {
     if (found.points[i].bad) continue;
     const double share = (all[i] - *low) / std::max(*high - *low, 1e-12);
     const auto bin =
-        std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, share) * grid::as_double(bins)));
+        std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, share) * as_double(bins)));
     x[bin] += all[i];
     y[bin] += found.points[i].chain_before_mm[row_of(scatter.chain)];
     count[bin] += 1.0;
@@ -76,7 +73,7 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
     if (has_after) add(point, point.chain_after_mm[row_of(scatter.chain)], false);
     if (point.bad) continue;
     // Both chains at one scale, so that the noise of one does not look like the error of the other.
-    for (const Side side : model::kSides) {
+    for (const Side side : kSides) {
       chart.y_also_mm.push_back((point.*scatter.first)[row_of(side)]);
       if (has_after) chart.y_also_mm.push_back(point.chain_after_mm[row_of(side)]);
     }
@@ -97,7 +94,7 @@ std::vector<ChartRow> length_charts(const Diagnosis& found) {
   const model::Sprocket& sprocket = found.extended_machine.sprocket;
   const double turn_mm = sprocket.teeth * sprocket.pitch_mm;
   std::vector<ChartRow> rows;
-  for (const Side chain : model::kSides) {
+  for (const Side chain : kSides) {
     const bool is_last = chain == Side::right;
     rows.push_back(
         {{scatter_chart(
@@ -125,7 +122,7 @@ std::vector<ChartRow> length_charts(const Diagnosis& found) {
 /// One chart of each chain, with the caption under the first. \param title names the chain
 ChartRow charts_of_chains(const Diagnosis& found, Scatter scatter, std::string_view title) {
   ChartRow row;
-  for (const Side chain : model::kSides) {
+  for (const Side chain : kSides) {
     scatter.chain = chain;
     scatter.title = fmt::format(fmt::runtime(title), chain_name(chain));
     row.charts.push_back(scatter_chart(found, scatter));
@@ -150,8 +147,8 @@ ChartRow angle_charts(const Diagnosis& found) {
 ChartRow order_charts(const Diagnosis& found) {
   // A cause of the visit shows before it is removed; without one, other causes would only hide the
   // remainder.
-  const bool of_the_visit = grid::any_of(found.causes, [](const auto& cause) {
-    return model::effects::depends_on_visit(*cause.cause.effect);
+  const bool of_the_visit = any_of(found.causes, [](const auto& cause) {
+    return effects::depends_on_visit(*cause.cause.effect);
   });
   const bool shows_rest = !of_the_visit && !found.causes.empty();
   return charts_of_chains(
@@ -159,7 +156,7 @@ ChartRow order_charts(const Diagnosis& found) {
       {.caption = "Two layers of colour mean friction or play, a slope drift, a step a skipped "
                   "link.",
        .x_title = "number of the visit",
-       .x = [](const PointPicture& point, Side) { return grid::as_double(*point.order); },
+       .x = [](const PointPicture& point, Side) { return as_double(*point.order); },
        .by_direction = true,
        .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm},
       shows_rest ? "The {} chain, visit by visit: what is left" : "The {} chain, visit by visit");
@@ -168,9 +165,7 @@ ChartRow order_charts(const Diagnosis& found) {
 }  // namespace
 
 bool has_order(const Diagnosis& found) {
-  return !found.points.empty() && grid::all_of(found.points, [](const PointPicture& point) {
-    return point.order.has_value();
-  });
+  return !found.points.empty() && all_of(found.points, &PointPicture::order);
 }
 
 Section residuals_section(const Diagnosis& found) {
@@ -182,7 +177,7 @@ Section residuals_section(const Diagnosis& found) {
         "so drift, skipped links and friction cannot be detected.");
     return section;
   }
-  grid::append_all(section.blocks, length_charts(found));
+  append_all(section.blocks, length_charts(found));
   section.blocks.emplace_back(angle_charts(found));
   if (has_order(found)) {
     section.blocks.emplace_back(order_charts(found));
@@ -205,7 +200,7 @@ struct Window {
 /// With a margin, and with a positive width.
 Window window_of(const std::vector<double>& values, double share, double least) {
   if (values.empty()) return {0.0, least};
-  const auto [low, high] = grid::minmax_element(values);
+  const auto [low, high] = minmax_element(values);
   const double margin = std::max(share * (*high - *low), 0.5 * (least - (*high - *low)));
   return {*low - margin, *high + margin};
 }
@@ -214,7 +209,7 @@ Window window_of(const std::vector<double>& values, double share, double least) 
 
 Chart residual_scatter_chart(const ResidualScatter& scatter) {
   std::vector<double> along, up = {0.0};
-  grid::append_all(up, scatter.y_also_mm);
+  append_all(up, scatter.y_also_mm);
   for (const ResidualDot& dot : scatter.dots) {
     along.push_back(dot.x);
     if (!dot.is_bad) up.push_back(dot.y_mm);

@@ -6,16 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 using diagnosis::BudgetLine;
-using diagnosis::Cause;
-using diagnosis::Verdict;
-using report::number_column;
 
 /// Improbable hypotheses are not listed.
 constexpr double kWorthALine = 0.001;
@@ -25,13 +21,13 @@ std::string what_words(const BudgetLine& line) {
                                          "a pattern that no listed cause explains",
                                          "remaining in these readings"};  // by What
   if (line.what == BudgetLine::What::cause) return cause_title(*line.cause);
-  return std::string(kWords[grid::as_size(line.what)]);
+  return std::string(kWords[as_size(line.what)]);
 }
 
 std::string_view changes_words(const BudgetLine& line) {
   constexpr std::string_view kWords[] = {"", "the place", "the order of the visits",
                                          "the direction of the move"};  // by ChangesWith
-  return kWords[grid::as_size(line.changes_with)];
+  return kWords[as_size(line.changes_with)];
 }
 
 std::string budget_words(const Diagnosis& found) {
@@ -65,8 +61,8 @@ Section budget_section(const Diagnosis& found) {
   for (const BudgetLine& line : found.budget->lines) {
     // The common part of two is not a separate part, and may be negative.
     if (line.what == BudgetLine::What::inseparable) continue;
-    table.rows.push_back({{what_words(line), std::sqrt(line.mean_square_mm2), line.without_mm,
-                           line.part_mm, changes_words(line)}});
+    table.add({what_words(line), std::sqrt(line.mean_square_mm2), line.without_mm, line.part_mm,
+               changes_words(line)});
   }
   return {"What the error is made of", {std::move(table), Paragraph{budget_words(found)}}};
 }
@@ -99,11 +95,11 @@ Section causes_section(const Diagnosis& found) {
 namespace {
 
 /// The likeliest ones are shown; the rest is below one per cent.
-std::vector<diagnosis::Hypothesis> likeliest_hypotheses(const Diagnosis& found) {
+std::vector<Hypothesis> likeliest_hypotheses(const Diagnosis& found) {
   constexpr double kLeast = 0.002;
   constexpr std::size_t kMost = 12;
-  std::vector<diagnosis::Hypothesis> leading;
-  for (const diagnosis::Hypothesis& hypothesis : found.hypotheses) {
+  std::vector<Hypothesis> leading;
+  for (const Hypothesis& hypothesis : found.hypotheses) {
     if (leading.size() < kMost && (hypothesis.probability >= kLeast || leading.empty()))
       leading.push_back(hypothesis);
   }
@@ -117,7 +113,7 @@ Chart probability_chart(const Diagnosis& found) {
                   "Causes can act together, so the probabilities need not add up to 100 %. Those "
                   "below 0.2 % are omitted. Blue: named by the verdict."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}};
-  for (const diagnosis::Hypothesis& hypothesis : likeliest_hypotheses(found)) {
+  for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);
     bool is_named = false;
     for (const auto& cause : found.causes) {
@@ -138,7 +134,7 @@ Section probabilities_section(const Diagnosis& found) {
   Table table{.columns = {{.is_number = true, .width = 13}, {.gap = 2}}};
   for (const auto& hypothesis : found.hypotheses) {
     if (hypothesis.probability < kWorthALine) continue;
-    table.rows.push_back({{percent(hypothesis.probability), hypothesis_title(hypothesis)}});
+    table.add({percent(hypothesis.probability), hypothesis_title(hypothesis)});
   }
   Chart chart = probability_chart(found);
   chart.alternative = std::move(table);
@@ -184,7 +180,7 @@ Table removals_table(const Diagnosis& found) {
   grid::stable_sort(order, [](const Removal* a, const Removal* b) {
     return a->stands != b->stands ? b->stands : a->support > b->support;
   });
-  const std::size_t changes = grid::count_where(order, [](const Removal* r) { return !r->stands; });
+  const std::size_t changes = count_where(order, [](const Removal* r) { return !r->stands; });
   order.resize(std::min(order.size(), kShown + changes));
   Table table{{{"left out"},
                {std::string(name(found.observations)), true},
@@ -198,12 +194,12 @@ Table removals_table(const Diagnosis& found) {
   for (const Removal* removal : order) {
     constexpr double kMost = 6.9;  // a thousand
     const double factor = std::exp(removal->support);
-    table.rows.push_back({{left_out_name(found, *removal), fmt::format("{}", removal->points),
-                           percent(removal->probability),
-                           removal->support > kMost ? std::string("above 1000")
-                                                    : fixed(factor, factor < 10.0 ? 1 : 0),
-                           verdict_without(*removal)},
-                          !removal->stands});
+    table.add({left_out_name(found, *removal), fmt::format("{}", removal->points),
+               percent(removal->probability),
+               removal->support > kMost ? std::string("above 1000")
+                                        : fixed(factor, factor < 10.0 ? 1 : 0),
+               verdict_without(*removal)},
+              !removal->stands);
   }
   return table;
 }
@@ -215,7 +211,7 @@ Section stability_section(const Diagnosis& found) {
                       fmt::format("Does the name depend on a few {}?", name(found.observations))};
   section.blocks.emplace_back(removals_table(found));
   const auto& removals = found.stability->removals;
-  section.is_folded = grid::all_of(removals, [](const Removal& removal) { return removal.stands; });
+  section.is_folded = all_of(removals, &Removal::stands);
   return section;
 }
 

@@ -18,6 +18,19 @@
 
 namespace chaintrue::cli {
 
+using diagnosis::BeltPlacePicture;
+using diagnosis::BeltsFindings;
+using diagnosis::Cause;
+using diagnosis::Hypothesis;
+using diagnosis::LeftOver;
+using diagnosis::MeasurementKind;
+using diagnosis::Observations;
+using diagnosis::Outlier;
+using diagnosis::PointPicture;
+using diagnosis::Verdict;
+using report::number_column;
+using report::text_column;
+
 /// `source` is the input file's name, for the page's last line. Pictures are made if `detail` is
 /// page.
 Document diagnosis_document(const Diagnosis& diagnosis, std::string_view source,
@@ -96,7 +109,7 @@ Light drawn_settings_light(const Diagnosis& found);
 /// The bed of the machine as found, about its middle.
 report::Outline bed_of(const Diagnosis& found);
 /// A point's error of the tool, with one sigma of its noise.
-Arrow arrow_of(const diagnosis::PointPicture& point, const Eigen::Vector2d& shift_mm);
+Arrow arrow_of(const PointPicture& point, const Eigen::Vector2d& shift_mm);
 /// Titles for the causes named, and for the first one's rival, which it must have. Precondition: a cause is named.
 std::string title_of_causes(const Diagnosis& found);
 std::string title_of_rival(const Diagnosis& found);
@@ -170,8 +183,8 @@ inline std::string coordinate_title(const std::string& name) {
 }
 
 /// All strokes of the same findings have one scale.
-Chart frame_chart(const diagnosis::BeltsFindings& found, std::string title,
-                  model::PerBelt<double> diagnosis::BeltPlacePicture::*which);
+Chart frame_chart(const BeltsFindings& found, std::string title,
+                  PerBelt<double> BeltPlacePicture::*which);
 
 // A diagnosis in the words and units of a workshop, for the terminal and for the report's page.
 /// "chain pitch error, left"
@@ -179,9 +192,9 @@ std::string cause_title(const diagnosis::CauseId& cause);
 std::string cause_title(const AppliedEffect& effect);
 /// Named causes that are neither in the diagnosis' machine nor in the corrected data: rivals of
 /// those that are, and causes that may be the tape's.
-std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found);
+std::vector<Cause> causes_left_out(const Diagnosis& found);
 /// Also accepts the hypotheses nothing, unknown, noise and bad_points.
-std::string hypothesis_title(const diagnosis::Hypothesis& hypothesis);
+std::string hypothesis_title(const Hypothesis& hypothesis);
 
 /// "point 17", counted from 1.
 std::string point_name(std::size_t index);
@@ -192,21 +205,21 @@ bool is_of_distances(const Diagnosis& found);
 /// A bound in a workshop unit.
 std::string bound_in_words(const diagnosis::Bound& bound);
 /// Noise alone gives as much in less than one of a hundred cases.
-bool is_surprising(const diagnosis::LeftOver& left_over);
+bool is_surprising(const LeftOver& left_over);
 /// A sentence on the residual with the named causes.
-std::string left_over_sentence(const diagnosis::LeftOver& left_over);
+std::string left_over_sentence(const LeftOver& left_over);
 /// The files of a diagnosis, as named in a command: GRID, HOLES, both, or BELTS.
 std::string_view files_in_words(const Diagnosis& found);
 
 /// The data: "34 points", "20 distances", "34 points and 20 distances", "99 places".
 std::string readings_counted(const Diagnosis& found);
 /// Whether this outlier is a distance rather than a point.
-bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad);
+bool is_distance(const Diagnosis& found, const Outlier& bad);
 /// " A single right name then has probability 95 %." of the next measurement with that position;
 /// empty if it determines the scale of belts, which does not discriminate between causes.
 std::string chance_then(const Diagnosis& diagnosis, std::size_t position);
 /// The next measurements as sentences: what to do, where, and how well.
-std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis);
+Words follow_ups_in_words(const Diagnosis& diagnosis);
 /// Their places, each once: "3, 6" where the third and the sixth are at one mark.
 struct FollowUpPlace {
   std::string numbers;
@@ -220,13 +233,11 @@ using diagnosis::off_in_words;
 using diagnosis::percent;
 using diagnosis::sizes_in_words;
 /// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
-std::string bad_belt_in_words(const diagnosis::Outlier& bad);
+std::string bad_belt_in_words(const Outlier& bad);
 using report::capitalised;
 using report::fixed;
 
 /// "left" or "right".
-inline const char* chain_name(model::Side side) {
-  return side == model::Side::left ? "left" : "right";
-}
+inline const char* chain_name(Side side) { return side == Side::left ? "left" : "right"; }
 
 }  // namespace chaintrue::cli

@@ -5,14 +5,10 @@
 
 #include <algorithm>
 
-#include "grid/containers.hpp"
 #include "model/effects/effect.hpp"
 
 namespace chaintrue::cli {
 namespace {
-
-using diagnosis::Hypothesis;
-using diagnosis::MeasurementKind;
 
 struct HypothesisWords {
   std::string_view word;
@@ -61,7 +57,7 @@ std::string share_percent(double share) {
 
 std::string reading_in_words(const NextMeasurement& next) {
   std::string text = fmt::format("Measure {}", diagnosis::reading_words(*next.reading, next.side));
-  const auto& [count, unit] = kReadings[grid::as_size(*next.reading)];
+  const auto& [count, unit] = kReadings[as_size(*next.reading)];
   if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", count * next.sigma, unit);
   if (count > 1.0) text += fmt::format("; divide it by {:g} for the file", count);
   return text + ".";
@@ -87,16 +83,15 @@ std::string cause_title(const diagnosis::CauseId& cause) {
 
 std::string cause_title(const AppliedEffect& effect) { return title(effect.effect, effect.side); }
 
-std::vector<diagnosis::Cause> causes_left_out(const Diagnosis& found) {
-  std::vector<diagnosis::Cause> left_out = found.causes;
-  std::erase_if(left_out, [&](const diagnosis::Cause& cause) {
+std::vector<Cause> causes_left_out(const Diagnosis& found) {
+  std::vector<Cause> left_out = found.causes;
+  std::erase_if(left_out, [&](const Cause& cause) {
     // Effects stated in the machine file have no probability.
     const auto is_it = [&](const AppliedEffect& one) {
       return one.probability && one.effect == cause.cause.effect->id &&
              one.side == name(cause.cause.side);
     };
-    return grid::any_of(found.extended_machine.effects, is_it) ||
-           grid::any_of(found.data_corrections, is_it);
+    return any_of(found.extended_machine.effects, is_it) || any_of(found.data_corrections, is_it);
   });
   return left_out;
 }
@@ -111,35 +106,35 @@ std::string hypothesis_title(const Hypothesis& hypothesis) {
 std::string point_name(std::size_t index) { return fmt::format("point {}", index + 1); }
 
 bool is_of_distances(const Diagnosis& found) {
-  return found.observations == diagnosis::Observations::distances;
+  return found.observations == Observations::distances;
 }
 
 std::string_view files_in_words(const Diagnosis& found) {
   constexpr std::string_view kFiles[] = {"GRID", "HOLES", "GRID --with HOLES", "BELTS",
                                          "DRAWING"};  // by Observations
-  return kFiles[grid::as_size(found.observations)];
+  return kFiles[as_size(found.observations)];
 }
 
 std::string readings_counted(const Diagnosis& found) {
   const std::string points = fmt::format("{} points", found.points.size());
   const std::string distances = fmt::format("{} distances", found.distances.size());
   switch (found.observations) {
-    case diagnosis::Observations::points:
+    case Observations::points:
       return points;
-    case diagnosis::Observations::distances:
+    case Observations::distances:
       return distances;
-    case diagnosis::Observations::belts:
+    case Observations::belts:
       return fmt::format("{} places", found.belts ? found.belts->places.size() : 0);
-    case diagnosis::Observations::drawing:
+    case Observations::drawing:
       return fmt::format("{} measures", found.drawing ? found.drawing->measures.size() : 0);
-    case diagnosis::Observations::both:
+    case Observations::both:
       break;
   }
   return points + " and " + distances;
 }
 
-bool is_distance(const Diagnosis& found, const diagnosis::Outlier& bad) {
-  return is_of_distances(found) || bad.of == diagnosis::Observations::distances;
+bool is_distance(const Diagnosis& found, const Outlier& bad) {
+  return is_of_distances(found) || bad.of == Observations::distances;
 }
 
 std::string distance_name(const Diagnosis& found, std::size_t index) {
@@ -152,15 +147,15 @@ std::string distance_name(const Diagnosis& found, std::size_t index) {
 std::string bound_in_words(const diagnosis::Bound& bound) {
   if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
   if (bound.parameter == "teeth" && bound.upper_95 == 0.0) return "not one tooth";
-  return diagnosis::in_workshop_units(bound.cause, {bound.parameter, bound.upper_95, 0.0});
+  return in_workshop_units(bound.cause, {bound.parameter, bound.upper_95, 0.0});
 }
 
-bool is_surprising(const diagnosis::LeftOver& left_over) {
+bool is_surprising(const LeftOver& left_over) {
   constexpr double kSurprising = 0.01;
   return left_over.p_value < kSurprising;
 }
 
-std::string left_over_sentence(const diagnosis::LeftOver& left_over) {
+std::string left_over_sentence(const LeftOver& left_over) {
   if (!is_surprising(left_over)) {
     return fmt::format("The residual looks like noise: noise alone gives as much in {} of cases.",
                        share_percent(left_over.p_value));
@@ -185,10 +180,10 @@ std::string chance_then(const Diagnosis& diagnosis, std::size_t position) {
                      percent(next.raises_probability_to));
 }
 
-std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis) {
-  std::vector<std::string> sentences;
+Words follow_ups_in_words(const Diagnosis& diagnosis) {
+  Words sentences;
   const auto& list = diagnosis.next_measurements;
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (const auto i : each_index(list)) {
     const bool again =
         std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i),
                     [&](const auto& earlier) { return same_place(earlier, list[i]); });
@@ -200,9 +195,9 @@ std::vector<std::string> follow_ups_in_words(const Diagnosis& diagnosis) {
 std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis) {
   std::vector<FollowUpPlace> places;
   const auto& list = diagnosis.next_measurements;
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (const auto i : each_index(list)) {
     if (!list[i].mark) continue;
-    auto* known = grid::find_where(
+    auto* known = find_where(
         places, [&](const auto& place) { return same_place(place.mark, *list[i].mark); });
     if (known != nullptr) {
       known->numbers += fmt::format(", {}", i + 1);
@@ -215,15 +210,14 @@ std::vector<FollowUpPlace> follow_up_places(const Diagnosis& diagnosis) {
   return places;
 }
 
-std::string bad_belt_in_words(const diagnosis::Outlier& bad) {
+std::string bad_belt_in_words(const Outlier& bad) {
   if (!bad.belt)
     return fmt::format("point {}: more than one of its belts disagrees", bad.index + 1);
   std::string text =
-      fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)", model::words(*bad.belt),
+      fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)", words(*bad.belt),
                   bad.index + 1, off_in_words(bad.residual_mm), bad.distance);
   if (bad.or_belt) {
-    text += fmt::format("; or the {} one, which looks the same at this place",
-                        model::words(*bad.or_belt));
+    text += fmt::format("; or the {} one, which looks the same at this place", words(*bad.or_belt));
   }
   return text;
 }

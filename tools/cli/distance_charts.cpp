@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/containers.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/sheet.hpp"
@@ -30,8 +29,8 @@ MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPo
   }
   const auto edge = grid::edge_of(name);
   if (!edge) return alongside;
-  return model::identity_placement(
-      on_edge(model::identity_placement(alongside), *edge, found.extended_machine.bed));
+  return identity_placement(
+      on_edge(identity_placement(alongside), *edge, found.extended_machine.bed));
 }
 
 Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
@@ -40,7 +39,7 @@ Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
 }
 
 std::vector<Arrow> marks_of(const Diagnosis& found) {
-  return grid::mapped(found.holes, [](const auto& hole) {
+  return mapped(found.holes, [](const auto& hole) {
     return Arrow{.name = hole.name, .x_mm = hole.mark.x_mm, .y_mm = hole.mark.y_mm};
   });
 }
@@ -50,7 +49,7 @@ struct DistancePanel {
   double DistancePicture::*residual;
 };
 
-grid::ErrorSummary summary_of(const Diagnosis& found, double DistancePicture::*residual) {
+ErrorSummary summary_of(const Diagnosis& found, double DistancePicture::*residual) {
   return summary_of_good(found.distances,
                          [&](const DistancePicture& distance) { return distance.*residual; });
 }
@@ -62,7 +61,7 @@ class Panels {
 
   /// A panel with its holes; lines are drawn in the one begun last.
   void begin(const std::string& title, const std::string& note) {
-    number_ = grid::as_double(heads_.rows.size());
+    number_ = as_double(heads_.rows.size());
     heads_.rows.push_back({number_, title, note});
     for (const auto& hole : found_.holes)
       holes_.rows.push_back({number_, hole.name, hole.mark.x_mm, hole.mark.y_mm});
@@ -79,9 +78,9 @@ class Panels {
   Chart finish(Chart chart) {
     chart.specification = "hole_distances";
     std::vector<Arrow> marks = marks_of(found_);
-    grid::append_all(marks, marks_);
-    chart.signals = report::bed_signals(bed_of(found_), marks);
-    chart.signals.push_back({"panels", grid::as_double(heads_.rows.size())});
+    append_all(marks, marks_);
+    chart.signals = bed_signals(bed_of(found_), marks);
+    chart.signals.push_back({"panels", as_double(heads_.rows.size())});
     chart.data = {std::move(heads_), std::move(lines_), std::move(holes_)};
     return chart;
   }
@@ -181,7 +180,7 @@ Chart next_distances_chart(const Diagnosis& found) {
   for (const DistancePicture& distance : found.distances)
     drawn.line(ends_of(found, distance), words_of_ends(distance), "measured", report::kNeutralColor,
                kThinPx, false);
-  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
+  for (const auto i : each_index(found.next_measurements)) {
     const NextMeasurement& next = found.next_measurements[i];
     const std::string number = fmt::format("{}.", i + 1);
     const MarkPoint from = next.mark ? *next.mark : place_of(found, next.from, {});

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/containers.hpp"
 #include "tools/cli/svg.hpp"
 
 namespace chaintrue::cli {
 
 namespace {
-
-using synthetic::EffectPicture;
-using synthetic::ShiftedMark;
-using synthetic::ShiftedSquare;
 
 // The sheet of paper, in its own units (pixels at 100 %).
 constexpr double kWidth = 960.0, kMargin = 30.0, kCaption = 26.0;
@@ -44,9 +39,10 @@ void add_arrow(Svg& svg, double x, double y, double dx, double dy, std::string_v
       look);
 }
 
-void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const Bed& bed) {
+void add_bed(Svg& svg, const BedView& view, const synthetic::EffectPicture& picture,
+             const Bed& bed) {
   double largest = 0.0;
-  for (const ShiftedMark& mark : picture.marks)
+  for (const synthetic::ShiftedMark& mark : picture.marks)
     largest = std::max({largest, mark.as_stated_mm.norm(), mark.calibrated_mm.norm()});
   const double spacing = view.scale() * bed.width_mm / (picture.columns - 1);
   const double by = exaggeration(largest, 0.6 * spacing);
@@ -55,7 +51,7 @@ void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const 
            fmt::format("The bed: 1 mm at the tool drawn as {} units; largest {} mm", by,
                        short_number(largest)));
   svg.rectangle(kMargin, top, view.scale() * bed.width_mm, view.high(), kFrame);
-  for (const ShiftedMark& mark : picture.marks) {
+  for (const synthetic::ShiftedMark& mark : picture.marks) {
     const auto add = [&](const Eigen::Vector2d& shift_mm, std::string_view colour) {
       add_arrow(svg, view.x(mark.mark.x_mm), view.y(mark.mark.y_mm), by * shift_mm.x(),
                 -by * shift_mm.y(), colour);
@@ -65,7 +61,7 @@ void add_bed(Svg& svg, const BedView& view, const EffectPicture& picture, const 
   }
 }
 
-void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) {
+void add_square(Svg& svg, const synthetic::ShiftedSquare& square, double left, double top) {
   double largest = 0.0;
   for (const Eigen::Vector2d& shift : square.corner_shift_mm)
     largest = std::max(largest, shift.norm());
@@ -73,7 +69,7 @@ void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) 
   const double half = 0.5 * kSquareSize;
   constexpr double kCorners[][2] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
   std::string outline;
-  for (std::size_t i = 0; i < square.corner_shift_mm.size(); ++i) {
+  for (const auto i : each_index(square.corner_shift_mm)) {
     const Eigen::Vector2d& shift = square.corner_shift_mm[i];
     outline += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L",
                            left + half * (1.0 + kCorners[i][0]) + by * shift.x(),
@@ -89,7 +85,7 @@ void add_square(Svg& svg, const ShiftedSquare& square, double left, double top) 
 
 }  // namespace
 
-std::string draw_effect(const Machine& machine, const EffectPicture& picture) {
+std::string draw_effect(const Machine& machine, const synthetic::EffectPicture& picture) {
   const Bed& bed = machine.bed;
   const BedView view{grid::area_of(bed), {kMargin, 3.0 * kCaption}, kWidth - 2.0 * kMargin};
   const double squares_top = view.y(-0.5 * bed.height_mm) + 3.0 * kCaption;
@@ -104,9 +100,8 @@ std::string draw_effect(const Machine& machine, const EffectPicture& picture) {
            "The tool's error: with the machine file as it is (orange), and after calibrating "
            "motors and zeros (blue)");
   add_bed(svg, view, picture, bed);
-  for (std::size_t i = 0; i < picture.squares.size(); ++i)
-    add_square(svg, picture.squares[i], 90.0 + grid::as_double(i) * (kSquareSize + 180.0),
-               squares_top);
+  for (const auto i : each_index(picture.squares))
+    add_square(svg, picture.squares[i], 90.0 + as_double(i) * (kSquareSize + 180.0), squares_top);
   return svg.finished();
 }
 
@@ -123,14 +118,14 @@ constexpr double kLargestError = 0.11;  // share of the side that the largest er
 /// The outlines as points of the picture, the cut one about its own middle, so that shape alone
 /// shows.
 struct Outlines {
-  std::vector<std::string> commanded, cut;
+  Words commanded, cut;
   double magnification = 1.0;
 };
 
-Outlines outlines_of(const model::CutSquare& square, const SquareTask& task) {
+Outlines outlines_of(const CutSquare& square, const SquareTask& task) {
   std::vector<Eigen::Vector2d> errors;
   double largest = 0.0;
-  for (std::size_t i = 0; i < square.cut.size(); ++i) {
+  for (const auto i : each_index(square.cut)) {
     const BedPoint &cut = square.cut[i], &commanded = square.commanded[i];
     errors.emplace_back(cut.x_mm - commanded.x_mm - square.offset.x_mm,
                         cut.y_mm - commanded.y_mm - square.offset.y_mm);
@@ -149,7 +144,7 @@ Outlines outlines_of(const model::CutSquare& square, const SquareTask& task) {
     return fmt::format("{:.2f},{:.2f}", kSquareLeft + scale * (x_mm - first.x_mm),
                        kSquareTop + scale * (first.y_mm + task.size_mm - y_mm));
   };
-  for (std::size_t i = 0; i < errors.size(); ++i) {
+  for (const auto i : each_index(errors)) {
     const BedPoint& p = square.commanded[i];
     outlines.commanded.push_back(at(p.x_mm, p.y_mm));
     outlines.cut.push_back(at(p.x_mm + outlines.magnification * errors[i].x(),
@@ -160,7 +155,7 @@ Outlines outlines_of(const model::CutSquare& square, const SquareTask& task) {
 
 }  // namespace
 
-std::string draw_square(const model::CutSquare& square, const SquareTask& task) {
+std::string draw_square(const CutSquare& square, const SquareTask& task) {
   using model::SquareSide;
   const Outlines outlines = outlines_of(square, task);
   const std::string title = fmt::format("A {:g} mm square at ({:g}, {:g}) mm", task.size_mm,

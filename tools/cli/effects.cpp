@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/files/answer_file.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
@@ -21,10 +20,6 @@
 
 namespace chaintrue::cli {
 namespace {
-
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
 
 struct EffectsOptions {
   std::string id;
@@ -50,19 +45,15 @@ Machine machine_of(const EffectsOptions& options) {
 }
 
 std::string sides_of(const Effect& effect) {
-  std::string list;
-  for (const EffectSide side : effect.sides) {
-    list +=
-        fmt::format("{}{}", list.empty() ? "" : "|", side == EffectSide::none ? "-" : name(side));
-  }
-  return list;
+  const auto sides = mapped(
+      effect.sides, [](EffectSide side) { return side == EffectSide::none ? "-" : name(side); });
+  return fmt::format("{}", fmt::join(sides, "|"));
 }
 
 /// The effects that may act on a machine.
 std::vector<const Effect*> listed(const EffectsOptions& options) {
   const Machine machine = machine_of(options);
-  return options.machine.empty() ? model::effects::listed_effects(machine)
-                                 : model::effects::effects_of(machine);
+  return options.machine.empty() ? effects::listed_effects(machine) : effects::effects_of(machine);
 }
 
 void list_catalogue(const std::vector<const Effect*>& effects) {
@@ -71,11 +62,8 @@ void list_catalogue(const std::vector<const Effect*>& effects) {
     const std::string_view own = effect->law != nullptr ? "declared" : name(effect->station);
     if (own != heading) fmt::print("{}{}\n", heading.empty() ? "" : "\n", own);
     heading = own;
-    std::string parameters;
-    for (const EffectParameter& parameter : effect->parameters) {
-      parameters += fmt::format("{}{}", parameters.empty() ? "" : ",", parameter.name);
-    }
-    fmt::print("  {}:{}:{}\n", effect->id, sides_of(*effect), parameters);
+    fmt::print("  {}:{}:{}\n", effect->id, sides_of(*effect),
+               fmt::join(mapped(effect->parameters, &EffectParameter::name), ","));
     fmt::print("      {}; usually {}\n", effect->cause, effect->typical);
   }
   fmt::print("\nOne of them: chaintrue effects ID [--machine M.json]\n");
@@ -87,8 +75,8 @@ void describe(const Effect& effect) {
              effect.equation);
   for (const EffectParameter& p : effect.parameters) {
     fmt::print("  {}  {}{}: {}, {} to {}, usually {}\n",
-               p.role == model::effects::ParameterRole::size ? "size        " : "place       ",
-               p.name, p.symbol.empty() ? "" : fmt::format(" ({})", p.symbol), p.meaning,
+               p.role == ParameterRole::size ? "size        " : "place       ", p.name,
+               p.symbol.empty() ? "" : fmt::format(" ({})", p.symbol), p.meaning,
                short_number(p.lower), short_number(p.upper), short_number(p.nominal));
   }
   fmt::print(
@@ -104,16 +92,16 @@ std::string_view glyph(const Eigen::Vector2d& shift) {
   constexpr std::string_view kArrows[] = {"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};
   if (shift.norm() < kNothingMm) return "·";
   const double eighths = std::atan2(shift.y(), shift.x()) / (std::numbers::pi / 4.0);
-  return kArrows[grid::as_size(std::lround(eighths) + 8) % 8];
+  return kArrows[as_size(std::lround(eighths) + 8) % 8];
 }
 
 template <class Member>
 void print_bed(const synthetic::EffectPicture& picture, Member member) {
-  const auto columns = grid::as_size(picture.columns);
+  const auto columns = as_size(picture.columns);
   fmt::print("      x");
   for (std::size_t k = 0; k < columns; ++k) fmt::print("{:>10.0f}", picture.marks[k].mark.x_mm);
   fmt::print("\n");
-  for (std::size_t row = grid::as_size(picture.rows); row-- > 0;) {
+  for (std::size_t row = as_size(picture.rows); row-- > 0;) {
     fmt::print("  y{:>5.0f}", picture.marks[row * columns].mark.y_mm);
     for (std::size_t k = 0; k < columns; ++k) {
       const Eigen::Vector2d& shift = picture.marks[row * columns + k].*member;
@@ -183,11 +171,11 @@ std::vector<double> chosen_values(const Effect& effect, EffectSide side,
     wanted.parameters[parameter] = value;
   Machine with = machine;
   with.effects.push_back(wanted);
-  for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
+  for (const MachineProblem& problem : effects::problems_of_effects(with)) {
     problems.add("--set", problem.value, problem.expected, ProblemKind::impossible);
   }
   problems.throw_if_any();
-  return grid::mapped(effect.parameters, [&](const EffectParameter& parameter) {
+  return mapped(effect.parameters, [&](const EffectParameter& parameter) {
     return wanted.parameters.at(std::string(parameter.name));
   });
 }
@@ -210,9 +198,9 @@ void check_options(const EffectsOptions& options, OptionProblems& problems) {
   const bool known_later = !options.declared.empty() || options.machine == "-";
   const auto is_declared = [&] {
     return !options.machine.empty() &&
-           model::effects::find_effect(machine_of(options), options.id) != nullptr;
+           effects::find_effect(machine_of(options), options.id) != nullptr;
   };
-  if (const Effect* effect = model::effects::find_effect(options.id)) {
+  if (const Effect* effect = effects::find_effect(options.id)) {
     (void)chosen_side(*effect, options.side, problems);
   } else if (!known_later && !is_declared()) {
     problems.add("effect", options.id, "an effect that `chaintrue effects` lists",
@@ -225,7 +213,7 @@ std::optional<std::string> unreachable(const Machine& machine, const AppliedEffe
   Machine with = machine;
   with.effects.push_back(effect);
   for (const Machine* one : {&machine, static_cast<const Machine*>(&with)}) {
-    const model::ReadingModel model(*one);
+    const ReadingModel model(*one);
     for (const auto& [columns, rows] : {std::pair{7, 4}, std::pair{10, 6}, std::pair{20, 10}}) {
       for (const model::Visit& visit : synthetic::regular_session(machine, columns, rows)) {
         const auto reading = model.at(visit.position);
@@ -248,7 +236,7 @@ int show_picture(const Effect& effect, const EffectsOptions& options, const Mach
   const EffectSide side = chosen_side(effect, options.side, sound);
   sound.throw_if_any();
   const std::vector<double> values = chosen_values(effect, side, options, machine);
-  if (const auto why = unreachable(machine, model::effects::applied(effect, side, values))) {
+  if (const auto why = unreachable(machine, effects::applied(effect, side, values))) {
     say("{}: {}", options.machine, *why);
     return kNotSupportedOrOutside;
   }
@@ -278,7 +266,7 @@ int show_picture(const Effect& effect, const EffectsOptions& options, const Mach
 
 int run_effects(const EffectsOptions& options) {
   if (options.markdown) {
-    fmt::print("{}", model::effects::catalogue_document());
+    fmt::print("{}", effects::catalogue_document());
     return kDone;
   }
   if (!options.atlas.empty())
@@ -289,11 +277,11 @@ int run_effects(const EffectsOptions& options) {
   }
   if (options.id.empty()) {
     list_catalogue(listed(options));
-    say_next({"effects", std::string(model::effects::catalogue().front()->id)});
+    say_next({"effects", std::string(effects::catalogue().front()->id)});
     return kDone;
   }
   const Machine machine = machine_of(options);
-  const Effect* effect = model::effects::find_effect(machine, options.id);
+  const Effect* effect = effects::find_effect(machine, options.id);
   if (effect == nullptr) {
     refuse("command line", "effect", options.id,
            "an effect that `chaintrue effects` lists, or that --effects declares",

@@ -25,7 +25,6 @@ namespace {
 // The atlas of causes (grid/synthetic/atlas.hpp) as a self-contained page: small pictures side by
 // side, each with a slider for the size of its cause. Without scripts it shows the usual sizes.
 
-using model::ToolPosition;
 using report::escaped;
 using synthetic::Atlas;
 using synthetic::AtlasFrame;
@@ -77,7 +76,7 @@ for (const figure of document.querySelectorAll('figure')) {
 
 BedView view_of(const std::vector<AtlasLine>& lines) {
   const ToolPosition first = lines.front().points.front();
-  interp::Rectangle box{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
+  Rectangle box{first.x_mm, first.x_mm, first.y_mm, first.y_mm};
   for (const AtlasLine& line : lines) {
     for (const ToolPosition& point : line.points) grid::take_in(box, {point.x_mm, point.y_mm});
   }
@@ -89,7 +88,7 @@ std::string path_of(const BedView& view, const AtlasLine& line,
                     const std::vector<std::optional<ToolPosition>>& drawn, double times) {
   std::string path;
   bool pen_is_down = false;
-  for (std::size_t i = 0; i < line.points.size(); ++i) {
+  for (const auto i : each_index(line.points)) {
     if (!drawn[i]) {
       pen_is_down = false;
       continue;
@@ -109,7 +108,7 @@ std::string paths(const BedView& view, const std::vector<AtlasLine>& lines, cons
   std::string svg;
   for (const bool of_square : {false, true}) {
     std::string path;
-    for (std::size_t k = 0; k < lines.size(); ++k) {
+    for (const auto k : each_index(lines)) {
       if (lines[k].is_of_square == of_square)
         path += path_of(view, lines[k], frame.lines[k], times);
     }
@@ -235,11 +234,11 @@ struct NamedAtlas {
   std::string machine;
 };
 
-NamedAtlas of_plotter(const model::PlotterMachine& machine, const std::string& cause) {
-  return {synthetic::atlas_of(*model::make_plotter_mechanism(machine), cause), machine.name};
+NamedAtlas of_plotter(const PlotterMachine& machine, const std::string& cause) {
+  return {synthetic::atlas_of(*make_plotter_mechanism(machine), cause), machine.name};
 }
 
-void refuse_declared(const InputFile& file, const std::vector<std::string>& declared) {
+void refuse_declared(const InputFile& file, const Words& declared) {
   if (declared.empty()) return;
   refuse("command line", "--effects", declared.front(),
          fmt::format(
@@ -248,8 +247,7 @@ void refuse_declared(const InputFile& file, const std::vector<std::string>& decl
          ProblemKind::contradiction);
 }
 
-NamedAtlas atlas_of_file(const InputFile& file, const std::string& cause,
-                         const std::vector<std::string>& declared) {
+NamedAtlas atlas_of_file(const InputFile& file, const std::string& cause, const Words& declared) {
   if (is_of_a_plotter(file)) {
     refuse_declared(file, declared);
     const files::ReadPlotter read = load_plotter(file);
@@ -261,7 +259,7 @@ NamedAtlas atlas_of_file(const InputFile& file, const std::string& cause,
   if (file.kind == FileKind::machine) {
     Machine machine = load_machine(file);
     files::declare_effects(declared, machine);
-    return {synthetic::atlas_of(*model::make_chain_mechanism(machine), cause), machine.name};
+    return {synthetic::atlas_of(*make_chain_mechanism(machine), cause), machine.name};
   }
   refuse_declared(file, declared);
   if (file.kind == FileKind::drawing)
@@ -272,8 +270,8 @@ NamedAtlas atlas_of_file(const InputFile& file, const std::string& cause,
 
 }  // namespace
 
-int write_atlas(const std::string& machine, const std::string& cause,
-                const std::vector<std::string>& declared, const std::string& output) {
+int write_atlas(const std::string& machine, const std::string& cause, const Words& declared,
+                const std::string& output) {
   const NamedAtlas named = atlas_of_file(open_input(machine), cause, declared);
   if (named.atlas.pictures.empty() && named.atlas.not_drawn.empty()) {
     refuse("command line", "effect", cause,

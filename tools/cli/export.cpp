@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/map_file.hpp"
@@ -25,10 +24,10 @@ namespace {
 /// may not act.
 void require_sure_causes(const std::vector<AppliedEffect>& effects, const std::string& name,
                          bool is_forced) {
-  std::vector<std::string> weak;
+  Words weak;
   for (const AppliedEffect& one : effects) {
     if (is_forced || one.probability.value_or(1.0) >= diagnosis::kSureOfCause) continue;
-    const model::effects::Effect* effect = model::effects::find_effect(one.effect);
+    const Effect* effect = effects::find_effect(one.effect);
     weak.push_back(
         fmt::format("{}{}{} ({})", effect != nullptr ? effect->cause : std::string_view(one.effect),
                     one.side.empty() ? "" : ", ", one.side, diagnosis::percent(*one.probability)));
@@ -61,7 +60,7 @@ Diagnosis load_diagnosis(const InputFile& file, bool of_belts) {
 
 /// JSON without a type: probably a machine, whose reader reports what is missing.
 bool is_untyped_json(const InputFile& file) {
-  return file.kind == FileKind::other && files::is_json(file.text) &&
+  return file.kind == FileKind::other && is_json(file.text) &&
          files::file_type_of(file.text, file.name).empty();
 }
 
@@ -74,7 +73,7 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool is_
   if (file.kind == FileKind::diagnosis) {
     const Diagnosis found = load_diagnosis(file, false);
     std::vector<AppliedEffect> taken = found.extended_machine.effects;
-    grid::append_all(taken, found.data_corrections);
+    append_all(taken, found.data_corrections);
     require_sure_causes(taken, file.name, is_forced);
     return exported_from(found, file.name, command);
   }
@@ -117,8 +116,8 @@ files::Maslow4Settings maslow4_settings_of(const InputFile& file, bool is_forced
   require_kind(file, {FileKind::anchors, FileKind::diagnosis});
   if (file.kind == FileKind::diagnosis)
     return files::write_maslow4_settings(load_diagnosis(file, true));
-  const files::FittedAnchors found = load_anchors(file);
-  require_fit_for_cutting(not_to_paste(found.fit, grid::error_of_belts(found.fit, holes_of(found))),
+  const FittedAnchors found = load_anchors(file);
+  require_fit_for_cutting(not_to_paste(found.fit, error_of_belts(found.fit, holes_of(found))),
                           is_forced);
   return files::write_maslow4_settings(found.fit);
 }
@@ -153,10 +152,10 @@ Example:
 int export_plotter(const ExportCommand& command) {
   const InputFile file = open_input(command.input);
   require_kind(file, {FileKind::plotter});
-  const grid::KnownPlotter plotter = load_found_plotter(file);
+  const KnownPlotter plotter = load_found_plotter(file);
   std::string text;
   for (const std::string& line :
-       grid::settings_to_paste(plotter.set, grid::machine_found(plotter.set, *plotter.found)))
+       settings_to_paste(plotter.set, machine_found(plotter.set, *plotter.found)))
     text += line + "\n";
   write_output(command.output, text);
   say_next({"start", file.path, "second-drawing"});

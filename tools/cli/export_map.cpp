@@ -46,7 +46,7 @@ std::string without_table(const grid::MapFailure& failure) {
 }
 
 WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
-  const auto nearest = grid::straight_settings(named.map, grid::Anchors::free);
+  const auto nearest = straight_settings(named.map, grid::Anchors::free);
   if (!nearest) return tl::unexpected(nearest.error().sentence());
   auto module = files::klipper_kinematics(grid::MapInFrame(named.map),
                                           {nearest->anchors, nearest->longer_mm}, named.name);
@@ -126,7 +126,7 @@ $101=<steps of a turn / mm of chain in a turn, times {:.6f}>
 
 template <grid::Anchors kAnchors, auto kLines>
 WrittenOrWhy straight_lines(const NamedMap& named, const std::string&) {
-  const auto nearest = grid::straight_settings(named.map, kAnchors);
+  const auto nearest = straight_settings(named.map, kAnchors);
   if (!nearest) return tl::unexpected(nearest.error().sentence());
   return Written{
       kLines(*nearest),

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
@@ -48,7 +47,7 @@ std::string words_of(const grid::Lacking& lacking, const Machine& machine) {
         "{:.2f} mm of that.\n",
         lacking.costs_mm);
   }
-  const model::effects::Effect* effect = model::effects::find_effect(machine, lacking.what);
+  const Effect* effect = effects::find_effect(machine, lacking.what);
   return fmt::format("No firmware has a setting for this: {}. It causes {:.2f} mm of that{}.\n",
                      effect != nullptr ? effect->cause : std::string_view(lacking.what),
                      lacking.costs_mm,
@@ -70,7 +69,7 @@ std::string words_of(const std::string& today, const Machine& machine,
 /// For a map the error today is the same as in every verb; the placement of a hand-laid sheet does
 /// not depend on the numbers.
 std::string today_in_words(const CompensationMap& map, const grid::SettingsToType& typed) {
-  const grid::ErrorSummary today = grid::error_in_use(map).value_or(typed.as_it_is);
+  const ErrorSummary today = error_in_use(map).value_or(typed.as_it_is);
   return fmt::format(
       "With today's settings the tool is {:.2f} mm rms off over the measured part, {:.2f} mm at "
       "worst{};",
@@ -107,11 +106,10 @@ CompensationMap map_after_of(const CompensationMap& map, const Machine& before,
   if (holds_numbers) {
     Machine after = before;
     after.controller = now;
-    numbers = fmt::format(
-        " ({})", files::in_words(files::changed_settings(files::settings_in_force(before),
-                                                         files::settings_in_force(after))));
+    numbers = fmt::format(" ({})", in_words(changed_settings(files::settings_in_force(before),
+                                                             files::settings_in_force(after))));
   }
-  return grid::map_for_settings(
+  return map_for_settings(
       map, now,
       fmt::format("For a controller that holds the numbers from export groundcontrol{}.", numbers));
 }
@@ -181,14 +179,14 @@ Exported of_machine(const Machine& stated, const std::string& file,
 std::string left_out_in_words(const Diagnosis& found) {
   std::string words;
   const auto is_of_paper = [](const auto& same) {
-    return same.cause.effect->station == model::effects::Station::paper;
+    return same.cause.effect->station == Station::paper;
   };
-  for (const diagnosis::Cause& cause : causes_left_out(found)) {
-    if (grid::none_of(cause.same_as, is_of_paper)) continue;
+  for (const Cause& cause : causes_left_out(found)) {
+    if (none_of(cause.same_as, is_of_paper)) continue;
     words += fmt::format(
         "These numbers leave out an error that may be {}{} or the tape used for the marks. A map "
         "corrects it either way: export its numbers instead.\n",
-        cause.cause.effect->cause, diagnosis::side_words(cause.cause));
+        cause.cause.effect->cause, side_words(cause.cause));
   }
   return words;
 }

@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
-
 namespace chaintrue::cli {
 namespace {
 
 std::string csv_line(const Fields& fields, std::string Field::*what) {
-  return fmt::format("{}\n", fmt::join(grid::mapped(fields, what), ","));
+  return fmt::format("{}\n", fmt::join(mapped(fields, what), ","));
 }
 
 }  // namespace
@@ -19,7 +17,7 @@ std::string csv_names(const Fields& fields) { return csv_line(fields, &Field::na
 std::string csv_values(const Fields& fields) { return csv_line(fields, &Field::text); }
 
 std::string json_of(const Fields& fields) {
-  std::vector<std::string> members;
+  Words members;
   for (const auto& [name, text, is_word] : fields) {
     const std::string_view quote = is_word ? "\"" : "";
     members.push_back(fmt::format("\"{0}\": {1}{2}{1}", name, quote, text.empty() ? "null" : text));

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/names.hpp"
+
 namespace chaintrue::cli {
 
 struct Field {

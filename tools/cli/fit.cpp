@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/map_file.hpp"
@@ -26,10 +25,10 @@ constexpr std::size_t kMostHoles = 150;
 
 constexpr const char* kNoMachine = "to be left out for a direct surface, which has no machine";
 
-constexpr files::Range kWishMm{"mm", 0.001, 50.0};
+constexpr Range kWishMm{"mm", 0.001, 50.0};
 
 /// \throws Failed
-void refuse_too_many(const grid::Measured& measured) {
+void refuse_too_many(const Measured& measured) {
   const auto refuse = [&](std::size_t found, const char* what, std::size_t most) {
     if (found <= most) return;
     throw Failed(
@@ -57,9 +56,9 @@ void check_as_read(const std::string& text, const std::string& measured) {
 int finish(Verb verb, const FitCommand& command, const CompensationMap& map,
            const std::vector<Section>& more) {
   const std::string text = files::write_map(map, made_by(verb));
-  check_as_read(text, files::name_in_messages(command.input.grid));
+  check_as_read(text, name_in_messages(command.input.grid));
   Document document = map_document(map, command.output, command.detail(), command.wish_mm);
-  grid::append_all(document.sections, more);
+  append_all(document.sections, more);
   write_fitted(command, text,
                command.json ? files::write_fit(map, fit_sentence(map), command.wish_mm) : "",
                document);
@@ -70,20 +69,16 @@ int finish(Verb verb, const FitCommand& command, const CompensationMap& map,
   }
   const Machine* machine = map.machine();
   const bool typed = machine != nullptr && machine->controller.settings.motor_spacing_mm;
-  if (typed) {
-    say_next({"export", "groundcontrol", command.output});
-  } else {
-    say_next(report_words(command.output));
-  }
+  say_next(typed ? Words{"export", "groundcontrol", command.output} : report_words(command.output));
   return kDone;
 }
 
 /// The tables of distances, each under its file's name if there are several.
-std::vector<Section> distances_of(const grid::Measured& measured, const grid::JointFit& fit) {
-  const std::vector<grid::MeasuredFile>& files = measured.files();
+std::vector<Section> distances_of(const Measured& measured, const grid::JointFit& fit) {
+  const std::vector<MeasuredFile>& files = measured.files();
   std::vector<Section> sections;
   for (const grid::FittedDistances& one : fit.distances) {
-    const grid::MeasuredFile& file = files[one.file];
+    const MeasuredFile& file = files[one.file];
     sections.push_back(
         distances_section(*file.holes(), one, files.size() > 1 ? file.name : std::string{}));
   }
@@ -93,11 +88,11 @@ std::vector<Section> distances_of(const grid::Measured& measured, const grid::Jo
 
 /// On the machine with the causes found, or as stated.
 tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
-                                                      const grid::Measured& measured) {
+                                                      const Measured& measured) {
   grid::keep_freed_memory();
   const grid::JointFitOptions options{.outside = rule_of(command.outside, {}),
                                       .progress = shown_progress()};
-  if (command.plain) return grid::joint_fit(measured, options);
+  if (command.plain) return joint_fit(measured, options);
   auto found =
       diagnosis::fit_with_causes(measured, {.fit = options, .accept_class = command.accept_class});
   if (!found) return tl::unexpected(found.error());
@@ -105,15 +100,15 @@ tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
 }
 
 /// The file and those of --with in one estimate.
-int fit_jointly(Verb verb, const FitCommand& command, const grid::Measured& measured) {
+int fit_jointly(Verb verb, const FitCommand& command, const Measured& measured) {
   const grid::JointFit fit = value_of(
       fit_of(command, measured),
-      measured.files().size() == 1 ? files::name_in_messages(command.input.grid) : "chaintrue fit");
+      measured.files().size() == 1 ? name_in_messages(command.input.grid) : "chaintrue fit");
   return finish(verb, command, fit.map, distances_of(measured, fit));
 }
 
 /// Splines through the lengths of one grid; the options' rules refuse anything else.
-int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile& file) {
+int fit_directly(Verb verb, const FitCommand& command, const MeasuredFile& file) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
   const interp::EndCondition end = *files::named(files::kEndConditions, command.ends);
@@ -121,7 +116,7 @@ int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile&
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
   const CompensationMap map =
-      value_of(grid::fit(*file.grid(), options), files::name_in_messages(command.input.grid));
+      value_of(grid::fit(*file.grid(), options), name_in_messages(command.input.grid));
   return finish(verb, command, map, {});
 }
 
@@ -151,7 +146,7 @@ int run_fit(Verb verb, const FitCommand& command) {
   verb.refuse_idle_options(facts);
   if ((facts & (facts::belts | facts::belt_holes)) != 0)
     return fit_the_belts(verb, command, opened);
-  grid::Measured all;
+  Measured all;
   for (const InputFile& file : opened)
     all.add(load_measured(file, command.input, command.tape, MeasuredUse::fit));
   refuse_too_many(all);
@@ -166,7 +161,7 @@ void write_fitted(const FitCommand& command, const std::string& text, const std:
   Outputs outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", json});
   write_outputs(outputs);
-  say_lines(report::render_text(document, command.detail()));
+  say_lines(render_text(document, command.detail()));
 }
 
 void add_fit(Verb app) {

@@ -13,7 +13,7 @@ namespace chaintrue::cli {
 
 struct FitCommand {
   GridInput input;
-  files::TapeOptions tape;
+  TapeOptions tape;
   /// Further files of the same machine.
   Words with;
   std::string output;

@@ -33,11 +33,11 @@ MeasuredBelts measured_again(const MeasuredBelts& belts, const BeltsFit& fit, st
   grid::Random random(kSeed, times);
   MeasuredBelts result = belts;
   result.points.clear();
-  const int factor = static_cast<int>(times);
+  const int factor = as_int(times);
   for (int visit = 0; visit < factor; ++visit) {
-    for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const auto k : each_index(belts.points)) {
       grid::BeltPoint point = belts.points[k];
-      for (const model::Belt belt : model::kBelts) {
+      for (const Belt belt : kBelts) {
         point.lengths_mm[belt] +=
             fit.residual_sigma_mm * random.normal() - fit.places[k].belts[belt].residual_mm;
       }
@@ -49,15 +49,15 @@ MeasuredBelts measured_again(const MeasuredBelts& belts, const BeltsFit& fit, st
 }
 
 /// Holes are fitted together with the belts.
-tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(
-    const MeasuredBelts& belts, const std::vector<grid::BeltHoles>& cut) {
+tl::expected<FittedAnchors, grid::BeltsFitFailure> fitted(const MeasuredBelts& belts,
+                                                          const std::vector<grid::BeltHoles>& cut) {
   if (cut.empty()) {
     return diagnosis::fit_with_causes(belts).map([&](BeltsFit fit) {
-      return files::FittedAnchors{belts.name, std::move(fit)};
+      return FittedAnchors{belts.name, std::move(fit)};
     });
   }
   return diagnosis::fit_with_causes_and_holes(belts, cut).map([&](grid::BeltsAndHolesFit fit) {
-    return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
+    return FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
   });
 }
 
@@ -67,25 +67,25 @@ std::optional<double> expected_of_places(const MeasuredBelts& belts,
                                          const std::vector<grid::BeltHoles>& cut, double noise_mm) {
   const auto again = fitted(belts, cut);
   if (!again || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
-  const auto error = grid::error_of_belts(again->fit, holes_of(*again));
+  const auto error = error_of_belts(again->fit, holes_of(*again));
   if (!error) return std::nullopt;
   return error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
 }
 
 /// After compensating the displacement that the holes show; empty if none was found.
-std::optional<double> expected_when_compensated(const files::FittedAnchors& found) {
+std::optional<double> expected_when_compensated(const FittedAnchors& found) {
   if (!found.holes || !found.holes->displacement) return std::nullopt;
-  grid::HolesWithBelts level = *found.holes;
+  HolesWithBelts level = *found.holes;
   level.displacement.reset();
-  const auto error = grid::error_of_belts(found.fit, &level);
+  const auto error = error_of_belts(found.fit, &level);
   return error ? std::optional(error->expected.rms_mm) : std::nullopt;
 }
 
 /// `belts` (without points if only holes were fitted) and `cut` are the input of `found`; `error`
 /// is its error_of_belts(). `wish_mm` is the rms error of the tool over the measured part.
 std::string belts_wish_sentence(const MeasuredBelts& belts, const std::vector<grid::BeltHoles>& cut,
-                                const files::FittedAnchors& found,
-                                const std::optional<BeltsError>& error, double wish_mm) {
+                                const FittedAnchors& found, const std::optional<BeltsError>& error,
+                                double wish_mm) {
   const std::string wish = fmt::format("Your target is {:g} mm: ", wish_mm);
   if (!error) return wish + "these readings do not show whether it is reached.";
   if (error->expected.rms_mm <= wish_mm)
@@ -138,7 +138,7 @@ void read_belts_file(const InputFile& file, const std::vector<std::size_t>& with
   all.indices = files::indices_without(all.belts->points.size(), without);
 }
 
-void read_holes_file(const InputFile& file, const files::TapeOptions& tape, BeltFiles& all) {
+void read_holes_file(const InputFile& file, const TapeOptions& tape, BeltFiles& all) {
   require_kind(file, {FileKind::belts, FileKind::holes, FileKind::belt_holes},
                "a single file of belts is fitted");
   files::ReadHoles read = files::parse_holes(file.text, file.name, {.tape = tape});
@@ -175,7 +175,7 @@ MeasuredBelts session_of(const BeltFiles& all) {
 }
 
 /// Bad points with their numbers in the file of the belts, where others were left out.
-files::FittedAnchors with_file_numbers(files::FittedAnchors found, const BeltFiles& all) {
+FittedAnchors with_file_numbers(FittedAnchors found, const BeltFiles& all) {
   for (grid::BadBeltReading& bad : found.fit.bad)
     bad.point = grid::index_in_file(all.indices, bad.point);
   for (std::size_t& point : found.fit.bad_points) point = grid::index_in_file(all.indices, point);
@@ -186,12 +186,11 @@ files::FittedAnchors with_file_numbers(files::FittedAnchors found, const BeltFil
 
 int fit_the_belts(Verb verb, const FitCommand& command, const InputFiles& files) {
   const BeltFiles all = read_all(command, files);
-  const files::FittedAnchors found =
-      value_of(fitted(session_of(all), all.holes), files.front().name);
+  const FittedAnchors found = value_of(fitted(session_of(all), all.holes), files.front().name);
   const std::string text = files::write_anchors(with_file_numbers(found, all), made_by(verb));
   const MeasuredBelts belts = all.belts.value_or(MeasuredBelts{});
-  const grid::HolesWithBelts* holes = holes_of(found);
-  const auto error = grid::error_of_belts(found.fit, holes);
+  const HolesWithBelts* holes = holes_of(found);
+  const auto error = error_of_belts(found.fit, holes);
   Document document =
       anchors_document({found.fit, holes, &belts, all.indices}, found.name, command.output);
   if (command.wish_mm) {

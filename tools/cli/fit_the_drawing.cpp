@@ -18,10 +18,8 @@ namespace {
 
 using grid::DrawingFit;
 using grid::FittedMeasure;
-using grid::PlotterSetting;
 using grid::TestDrawing;
 using report::number_column;
-using report::text_column;
 
 struct PlotterSettingWords {
   std::string_view noun;
@@ -44,7 +42,7 @@ PlotterSettingWords plotter_setting_words(std::size_t parameter) {
 double largest_bow(const TestDrawing& drawing, const DrawingFit& fit,
                    double FittedMeasure::*value) {
   double most = 0.0;
-  for (std::size_t i = 0; i < fit.measures.size(); ++i) {
+  for (const auto i : each_index(fit.measures)) {
     if (drawing.measures[i].kind == grid::observation::DrawnMeasure::Kind::bow &&
         !fit.measures[i].rejected)
       most = std::max(most, std::abs(fit.measures[i].*value));
@@ -54,8 +52,8 @@ double largest_bow(const TestDrawing& drawing, const DrawingFit& fit,
 
 std::string sentence_of_settings(const DrawingFit& fit) {
   std::string named;
-  for (std::size_t k = 0; k < fit.settings.size(); ++k) {
-    const PlotterSetting& own = fit.settings[k];
+  for (const auto k : each_index(fit.settings)) {
+    const grid::PlotterSetting& own = fit.settings[k];
     if (!own.is_off) continue;
     named += fmt::format("{}the {}, by {:+.2f} +- {:.2f} {}", named.empty() ? "" : "; ",
                          plotter_setting_words(k).noun, own.found - own.stated, own.sigma,
@@ -66,32 +64,30 @@ std::string sentence_of_settings(const DrawingFit& fit) {
 }
 
 Table table_of_settings(const DrawingFit& fit) {
-  Table table{.columns = {text_column("setting", 46),
+  Table table{.columns = {report::text_column("setting", 46),
                           number_column("as set", 10),
                           number_column("found", 10),
                           number_column("+-", 8),
                           {.gap = 2}}};
-  for (std::size_t k = 0; k < fit.settings.size(); ++k) {
-    const PlotterSetting& own = fit.settings[k];
+  for (const auto k : each_index(fit.settings)) {
+    const grid::PlotterSetting& own = fit.settings[k];
     const PlotterSettingWords words = plotter_setting_words(k);
-    table.rows.push_back(report::row_with_flag(
-        {fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
-        own.is_off, "off"));
+    table.add({fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
+              own.is_off, "off");
   }
   return table;
 }
 
 Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
-  Table table{.columns = {text_column("measure, mm", 22),
+  Table table{.columns = {report::text_column("measure, mm", 22),
                           number_column("measured", 10),
                           number_column("fitted", 10),
                           number_column("next page", 11),
                           {.gap = 2}}};
-  for (std::size_t i = 0; i < fit.measures.size(); ++i) {
+  for (const auto i : each_index(fit.measures)) {
     const FittedMeasure& own = fit.measures[i];
-    table.rows.push_back(report::row_with_flag(
-        {grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm}, own.rejected,
-        "left out"));
+    table.add({grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
+              own.rejected, "left out");
   }
   return table;
 }
@@ -105,7 +101,7 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
                   largest_bow(drawing, fit, &FittedMeasure::measured_mm),
                   largest_bow(drawing, fit, &FittedMeasure::after_mm))};
   document.remarks.say(sentence_of_settings(fit));
-  for (std::size_t i = 0; i < fit.measures.size(); ++i) {
+  for (const auto i : each_index(fit.measures)) {
     if (!fit.measures[i].rejected) continue;
     document.remarks.say(
         fmt::format("{} was left out: {:.1f} mm was read, but the others predict {:.1f} "
@@ -114,10 +110,8 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
                     fit.measures[i].found_mm),
         Detail::always, true);
   }
-  document.sections.push_back({"Settings", {table_of_settings(fit)}});
-  Section measures{"Measures", {table_of_measures(drawing, fit)}};
-  measures.detail = Detail::verbose;
-  document.sections.push_back(std::move(measures));
+  document.sections = {{"Settings", {table_of_settings(fit)}},
+                       {"Measures", {table_of_measures(drawing, fit)}, false, Detail::verbose}};
   return document;
 }
 
@@ -125,14 +119,14 @@ Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
 
 int fit_the_drawing(Verb verb, const FitCommand& command, const InputFile& file) {
   const TestDrawing drawing = files::parse_drawing(file.text, file.name);
-  const auto fit = grid::fit_drawing(drawing);
+  const auto fit = fit_drawing(drawing);
   if (!fit) {
     say("{}: {}", file.name, fit.error().sentence());
     if (fit.error().reason == grid::DrawingReason::no_settings_fit)
       say_next({"diagnose", file.path});
     return kBadInput;
   }
-  const std::string text = files::write_plotter({drawing, grid::found_by(*fit)}, {}, made_by(verb));
+  const std::string text = files::write_plotter({drawing, found_by(*fit)}, {}, made_by(verb));
   write_fitted(command, text, text, drawing_document(drawing, *fit));
   say_next({"export", "plotter", command.output});
   return kDone;

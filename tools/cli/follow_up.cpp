@@ -6,15 +6,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "grid/containers.hpp"
 #include "grid/plane_vectors.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/fields.hpp"
 
 namespace chaintrue::cli {
 namespace {
-
-using diagnosis::MeasurementKind;
 
 /// Points of this grid give commands in place of lengths.
 bool gives_commands(const MeasuredGrid& measured) {
@@ -44,15 +41,15 @@ std::string follow_up_list(const Diagnosis& found) {
     return "Nothing more needs measuring: no further reading is expected to change the answer.\n";
   }
   std::string text = "Measure, in this order:\n";
-  const std::vector<std::string> sentences = follow_ups_in_words(found);
-  for (std::size_t i = 0; i < sentences.size(); ++i) {
+  const Words sentences = follow_ups_in_words(found);
+  for (const auto i : each_index(sentences)) {
     text += fmt::format("{:>3}. {}{}\n", i + 1, sentences[i], chance_then(found, i));
   }
   return text;
 }
 
 bool proposes(const Diagnosis& found, MeasurementKind kind) {
-  return grid::any_of(found.next_measurements, grid::having(&NextMeasurement::kind, kind));
+  return any_of(found.next_measurements, having(&NextMeasurement::kind, kind));
 }
 
 std::string point_lines(const Diagnosis& found, const MeasuredGrid& measured, bool is_json) {
@@ -92,13 +89,13 @@ std::string readings_json(const Diagnosis& found) {
 namespace {
 
 /// A hole's name in the diagnosis.
-std::string name_in_diagnosis(const grid::Hole& hole, std::size_t position) {
+std::string name_in_diagnosis(const Hole& hole, std::size_t position) {
   return position == 0 ? hole.name : fmt::format("{} ({})", hole.name, position + 1);
 }
 
 /// Its name in the set's file; an edge keeps its name. Empty if the set has no such hole.
 std::string name_in_file(const MeasuredHoles& set, std::size_t position, const std::string& name) {
-  for (const grid::Hole& hole : set.holes) {
+  for (const Hole& hole : set.holes) {
     if (name_in_diagnosis(hole, position) == name) return hole.name;
   }
   return grid::edge_of(name) ? name : "";
@@ -107,7 +104,7 @@ std::string name_in_file(const MeasuredHoles& set, std::size_t position, const s
 /// N1, N2, ... except names in use.
 std::string free_name(const MeasuredHoles& set, int& number) {
   const std::string name = fmt::format("N{}", ++number);
-  const bool is_used = grid::any_of(set.holes, grid::having(&grid::Hole::name, name));
+  const bool is_used = any_of(set.holes, having(&Hole::name, name));
   return is_used ? free_name(set, number) : name;
 }
 
@@ -115,17 +112,17 @@ std::string free_name(const MeasuredHoles& set, int& number) {
 
 bool is_diagnosis_of(const Diagnosis& found, const std::vector<const MeasuredHoles*>& sets) {
   constexpr double kSamePlaceMm = 1e-3;
-  std::vector<grid::Hole> holes;
+  std::vector<Hole> holes;
   std::size_t distances = 0;
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    for (const grid::Hole& hole : sets[k]->holes) {
+  for (const auto k : each_index(sets)) {
+    for (const Hole& hole : sets[k]->holes) {
       holes.push_back({name_in_diagnosis(hole, k), hole.commanded});
     }
     distances += sets[k]->distances.size();
   }
   return found.distances.size() == distances &&
          std::equal(found.holes.begin(), found.holes.end(), holes.begin(), holes.end(),
-                    [&](const auto& pictured, const grid::Hole& hole) {
+                    [&](const auto& pictured, const Hole& hole) {
                       return pictured.name == hole.name &&
                              grid::distance_mm(pictured.commanded, hole.commanded) < kSamePlaceMm;
                     });

@@ -13,13 +13,13 @@ namespace {
 constexpr const char* kNothingIsWritten =
     "to be left out without --map, because it applies to compensated output";
 
-constexpr files::Range kToleranceMm{"mm", 1e-4, 100.0};
+constexpr Range kToleranceMm{"mm", 1e-4, 100.0};
 
 /// \throws InputError for a plotter that takes pictures.
 void require_gcode(const InputFile& file) {
-  const model::PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
+  const PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
   if (gcode::firmware(plotter).reads_gcode) return;
-  refuse(file.name, "/set/firmware", std::string(model::name(plotter)),
+  refuse(file.name, "/set/firmware", std::string(name(plotter)),
          "a plotter that accepts G-code, \"fluidnc\" or \"marlin\"; this one draws pictures, "
          "accurately once the lines from chaintrue export plotter are typed in");
 }

@@ -18,8 +18,6 @@ namespace chaintrue::cli {
 
 namespace {
 
-using gcode::Findings;
-
 void print_survey(const gcode::Survey& survey, bool json) {
   end_progress();
   const gcode::Box box = survey.box.value_or(gcode::Box{});
@@ -78,20 +76,18 @@ void say_next_of_program(const GcodeOptions& options) {
 
 /// With a map: all problems that compensating would report; its output is discarded. \param found
 /// by the survey
-int check_compensation(const GcodeMachine& machine, const GcodeOptions& options,
-                       gcode::LineSource source, const gcode::Survey& survey,
-                       const Findings& found) {
-  gcode::CompensateOptions settings = compensate_options(options, machine);
+int check_compensation(const GcodeMachine& machine, const GcodeOptions& options, LineSource source,
+                       const gcode::Survey& survey, const Findings& found) {
+  CompensateOptions settings = compensate_options(options, machine);
   gcode::CutPlaces cuts;
-  settings.on_command = [&cuts](const gcode::Move& move, const gcode::PathSample& from,
-                                const gcode::PathSample& to) {
+  settings.on_command = [&cuts](const Move& move, const PathSample& from, const PathSample& to) {
     if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
   };
   gcode::Compensator compensator(machine.corrector, settings, [](std::string_view) {});
   const auto outcome = compensator.run(source, options.dialect());
   print_survey(survey, options.json);
   int code = report(options.program, compensator.findings());
-  for (const gcode::Problem& problem : found.problems) {
+  for (const Problem& problem : found.problems) {
     if (problem.name != gcode::ProblemName::outside_sheet) continue;  // the others are among these
     const int own = report(options.program, problem);
     if (code == kDone) code = own;
@@ -116,7 +112,7 @@ std::unique_ptr<const GcodeMachine> machine_if_any(const GcodeOptions& options) 
 int run_gcode_check(const GcodeOptions& options) {
   const auto machine = machine_if_any(options);
   const GcodeText text(options.program);
-  const gcode::Firmware* firmware = stated_firmware(options.controller);
+  const Firmware* firmware = stated_firmware(options.controller);
   const int steps = 1 + (firmware != nullptr ? 1 : 0) + (options.map.empty() ? 0 : 1);
   auto source = text.open({"the program", 1, steps});
   Findings findings;
@@ -131,7 +127,7 @@ int run_gcode_check(const GcodeOptions& options) {
   if (firmware != nullptr) {
     gcode::ControllerCheck check(*firmware, findings);
     auto once_more = text.open({"the controller's interpretation", 2, steps});
-    const auto outcome = gcode::run_program(once_more, options.dialect(), check);
+    const auto outcome = run_program(once_more, options.dialect(), check);
     if (!outcome) return report(options.program, outcome.error());
   }
   int code = kDone;
@@ -152,7 +148,7 @@ int run_gcode_lengths(const GcodeOptions& options) {
   const double rows = rows_of_lengths(options, text);
   auto source = text.open();
   shown_progress()({"chain lengths", 2, 2});
-  files::PendingFile output(options.output);
+  PendingFile output(options.output);
   if (!options.json) {
     output.write(
         "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,feed_mm_per_min\n");
@@ -168,15 +164,15 @@ int run_gcode_lengths(const GcodeOptions& options) {
   const auto write = [&](const gcode::PathLengths& place) {
     progress_is(std::min(++written, rows), rows);
     output.write(fmt::format(
-        fmt::runtime(row), place.line, gcode::name(place.kind), place.place.x_mm, place.place.y_mm,
+        fmt::runtime(row), place.line, name(place.kind), place.place.x_mm, place.place.y_mm,
         place.place.z_mm, place.answer.lengths_mm[0], place.answer.lengths_mm[1],
         place.answer.sigma.left_mm, place.answer.sigma.right_mm,
         place.kind == gcode::MoveKind::rapid ? std::string(no_feed)
                                              : fmt::format("{:.3f}", place.feed_mm_per_min)));
   };
   Findings findings;
-  const auto outcome = gcode::path_lengths(source, options.dialect(), *target.lengths,
-                                           options.every_mm, write, findings);
+  const auto outcome =
+      path_lengths(source, options.dialect(), *target.lengths, options.every_mm, write, findings);
   if (!outcome) return report(options.program, outcome.error());
   const int code = report(options.program, findings);
   if (code != kDone) {
@@ -193,23 +189,22 @@ namespace {
 
 /// Stores the actions of one line.
 struct LineEvents final : gcode::Sink {
-  void move(const gcode::Move& move) override {
+  void move(const Move& move) override {
     if (listening) moves.push_back(move);
   }
   void word(const gcode::PassedWord& word) override {
     if (listening) words += fmt::format(" {}", word.text);
   }
   bool listening = false;
-  std::vector<gcode::Move> moves;
+  std::vector<Move> moves;
   std::string words;
 };
 
 /// `machine` is null without a map.
-void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
+void explain_move(const Move& move, const GcodeMachine* machine) {
   const BedPoint target{move.to.x_mm, move.to.y_mm};
-  fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n",
-             gcode::name(move.kind), target.x_mm, target.y_mm, move.to.z_mm,
-             gcode::length_mm(move));
+  fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n", name(move.kind),
+             target.x_mm, target.y_mm, move.to.z_mm, length_mm(move));
   if (move.arc) {
     fmt::print("    centre X{:.4f} Y{:.4f}, radius {:.4f} mm, {:.4f} degrees\n",
                move.arc->centre.x_mm, move.arc->centre.y_mm, move.arc->start_radius_mm,
@@ -263,7 +258,7 @@ int run_gcode_explain(const GcodeOptions& options) {
   const auto done = gcode::attempt([&] { return program.step(); });
   if (!done) return report(file, done.error());
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
-  for (const gcode::Move& move : events.moves) explain_move(move, machine.get());
+  for (const Move& move : events.moves) explain_move(move, machine.get());
   print_state("after:");
   say_next(with_map_words(options, {"gcode", "check", file}));
   return kDone;

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/map_words.hpp"
@@ -27,11 +26,11 @@ struct Proof {
 };
 
 Proof prove(const GcodeOptions& options, const GcodeMachine& machine, const GcodeText& text,
-            files::PendingFile& output) {
+            PendingFile& output) {
   auto original = text.open({"the result on the simulated machine", 2, 2});
   auto written = written_so_far(output);
-  const auto outcome = gcode::verify(original, written, machine.corrector, options.dialect(),
-                                     verify_options(options, machine));
+  const auto outcome = verify(original, written, machine.corrector, options.dialect(),
+                              verify_options(options, machine));
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
 }
@@ -64,9 +63,8 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
       controller, proof.largest_mm, options.limits.tolerance_mm);
 }
 
-report::PathPiece drawn(const gcode::Move& move, const gcode::PathSample& from,
-                        const gcode::PathSample& to) {
-  const auto correction = [](const gcode::PathSample& sample) {
+report::PathPiece drawn(const Move& move, const PathSample& from, const PathSample& to) {
+  const auto correction = [](const PathSample& sample) {
     return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
                               sample.command.y_mm - sample.target.y_mm};
   };
@@ -94,7 +92,7 @@ void describe_use(const GcodeMachine& machine, const GcodeOptions& options) {
           after, options.map);
     }
   }
-  const gcode::Firmware* firmware = &machine.corrector.firmware();
+  const Firmware* firmware = &machine.corrector.firmware();
   const bool adds_home = firmware == &gcode::firmware(ControllerKind::maslow_classic) ||
                          firmware == &gcode::firmware(ControllerKind::holey);
   if (!adds_home || options.words.home_is_zero) return;
@@ -116,10 +114,10 @@ struct Compensated {
   report::PathReport picture;  ///< filled for --report and --json
 };
 
-std::string json_of(const Compensated& result, const gcode::Findings& findings,
+std::string json_of(const Compensated& result, const Findings& findings,
                     const GcodeOptions& options) {
-  std::vector<std::string> notes, pieces;
-  for (const gcode::Note& note : findings.notes) {
+  Words notes, pieces;
+  for (const Note& note : findings.notes) {
     notes.push_back(fmt::format("{{\"line\": {}, \"name\": {}, \"sentence\": {}}}", note.line,
                                 in_quotes(note.name), in_quotes(note.sentence)));
   }
@@ -142,10 +140,10 @@ std::string json_of(const Compensated& result, const gcode::Findings& findings,
 
 /// The page of --report.
 std::string page_of(Compensated& result, const GcodeMachine& machine, const GcodeOptions& options,
-                    const std::optional<grid::Provenance>& made_by) {
+                    const std::optional<Provenance>& made_by) {
   const bool holds = result.proof.fault.empty();
   const gcode::CompensateSummary& summary = result.summary;
-  const interp::Rectangle& sheet = machine.controller.sheet;
+  const Rectangle& sheet = machine.controller.sheet;
   report::PathReport& picture = result.picture;
   picture.name = options.program == "-"
                      ? "A program"
@@ -168,23 +166,22 @@ std::string page_of(Compensated& result, const GcodeMachine& machine, const Gcod
     picture.figures.push_back(
         {fmt::format("{:.3f} mm", result.proof.largest_mm), "largest distance from the path"});
   }
-  grid::append_all(
-      picture.figures,
-      std::vector<Figure>{
-          {fmt::format("{:.2f} mm", summary.largest_correction_mm), "largest correction"},
-          {fmt::format("{:g} mm", options.limits.tolerance_mm), "tolerance of the path"},
-          {fmt::format("{:.1f} m", summary.path_mm / 1000.0), "path"},
-          {fmt::format("{}", summary.commands), holds ? "commands written" : "commands"}});
-  Document document = report::page_of(picture);
+  append_all(picture.figures,
+             std::vector<Figure>{
+                 {fmt::format("{:.2f} mm", summary.largest_correction_mm), "largest correction"},
+                 {fmt::format("{:g} mm", options.limits.tolerance_mm), "tolerance of the path"},
+                 {fmt::format("{:.1f} m", summary.path_mm / 1000.0), "path"},
+                 {fmt::format("{}", summary.commands), holds ? "commands written" : "commands"}});
+  Document document = page_of(picture);
   add_made_by(made_by, document.sections);
-  return report::render_html(document);
+  return render_html(document);
 }
 
 /// Runs the compensator; its problems are printed. \throws GcodeRefused
-gcode::CompensateSummary compensated(gcode::Compensator& compensator, gcode::LineSource source,
+gcode::CompensateSummary compensated(gcode::Compensator& compensator, LineSource source,
                                      const GcodeOptions& options) {
   const auto summary = compensator.run(source, options.dialect());
-  const gcode::Findings& findings = compensator.findings();
+  const Findings& findings = compensator.findings();
   report(options.program, findings);
   if (!summary) {
     report(options.program, summary.error());
@@ -210,8 +207,7 @@ void report_result(const Compensated& result, const GcodeMachine& machine,
     say("{}: run on a simulated {} controller, the compensated program is not within {} mm: "
         "{}\nthe program is not written; try another --tolerance-mm, or --no-verify to inspect "
         "that line",
-        files::name_in_messages(options.program), controller, options.limits.tolerance_mm,
-        proof.fault);
+        name_in_messages(options.program), controller, options.limits.tolerance_mm, proof.fault);
     throw Failed("", "not_held", proof.fault, kCheckFailed);
   }
   if (!options.no_verify) {
@@ -229,19 +225,18 @@ int run_gcode_compensate(const GcodeOptions& options) {
   if (const CompensationMap* map = machine.target.as<CompensationMap>())
     require_fit_for_cutting(not_to_cut_with(*map), options.forced);
   const GcodeText text(options.program);
-  gcode::LineSource source = text.open({"the program", 1, options.no_verify ? 1 : 2});
-  gcode::CompensateOptions settings = compensate_options(options, machine);
+  LineSource source = text.open({"the program", 1, options.no_verify ? 1 : 2});
+  CompensateOptions settings = compensate_options(options, machine);
   files::note_source(text.source());
   settings.made_by = made_by(options.verb);
   Compensated result;
   gcode::CutPlaces cuts;
-  settings.on_command = [&](const gcode::Move& move, const gcode::PathSample& from,
-                            const gcode::PathSample& to) {
+  settings.on_command = [&](const Move& move, const PathSample& from, const PathSample& to) {
     if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
     if ((options.json || !options.report.empty()) && move.names_xy)
       result.picture.add(drawn(move, from, to));
   };
-  files::PendingFile output(options.output);
+  PendingFile output(options.output);
   gcode::Compensator compensator(machine.corrector, settings,
                                  [&](std::string_view bytes) { output.write(bytes); });
   result.summary = compensated(compensator, std::move(source), options);

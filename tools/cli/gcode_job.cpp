@@ -13,10 +13,7 @@
 #include <utility>
 
 #include "grid/belts/belt_map.hpp"
-#include "grid/containers.hpp"
 #include "grid/files/sha256.hpp"
-#include "grid/files/sources.hpp"
-#include "grid/files/whole_file.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/typeset.hpp"
@@ -26,21 +23,18 @@ namespace chaintrue::cli {
 namespace {
 
 int exit_code(gcode::ProblemName name) {
-  return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
+  return kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
 }
 
 /// \throws InputError, which names what is expected, if it cannot be opened.
-gcode::LineSource lines_of_file(const std::string& path, const char* expected) {
-  auto source = gcode::LineSource::from_file(path);
+LineSource lines_of_file(const std::string& path, const char* expected) {
+  auto source = LineSource::from_file(path);
   if (!source) refuse(path, "", expected);
   return std::move(*source);
 }
 
-std::string sentence_of(const std::vector<gcode::Problem>& problems) {
-  std::string text;
-  for (const gcode::Problem& problem : problems)
-    text += (text.empty() ? "" : "\n") + problem.message();
-  return text;
+std::string sentence_of(const std::vector<Problem>& problems) {
+  return fmt::format("{}", fmt::join(mapped(problems, &Problem::message), "\n"));
 }
 
 }  // namespace
@@ -54,9 +48,8 @@ void check_limits(const GcodeOptions& options, OptionProblems& problems) {
                ProblemKind::out_of_range);
 }
 
-gcode::CompensateOptions compensate_options(const GcodeOptions& options,
-                                            const GcodeMachine& machine) {
-  gcode::CompensateOptions result = options.limits;
+CompensateOptions compensate_options(const GcodeOptions& options, const GcodeMachine& machine) {
+  CompensateOptions result = options.limits;
   result.clamp_box = machine.controller.clamp_box;
   result.half_play_mm = machine.controller.half_play_mm;
   for (const files::NamedSetting& setting : machine.controller.settings)
@@ -76,37 +69,36 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
     std::ifstream pipe(path, std::ios::binary);
     text_ = whole(pipe);
   } else if (!std::filesystem::is_regular_file(path, unknown)) {
-    text_ = files::read_whole_file(path);  // which reports the problem
+    text_ = read_whole_file(path);  // which reports the problem
   }
 }
 
-gcode::LineSource GcodeText::open() const {
-  return text_ ? gcode::LineSource::from_text(*text_)
-               : lines_of_file(path_, "a file that can be read");
+LineSource GcodeText::open() const {
+  return text_ ? LineSource::from_text(*text_) : lines_of_file(path_, "a file that can be read");
 }
 
-gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
-  gcode::LineSource source = open();
+LineSource GcodeText::open(const WorkStep& step) const {
+  LineSource source = open();
   std::error_code unknown;
   const std::uintmax_t size = text_ ? text_->size() : std::filesystem::file_size(path_, unknown);
   shown_progress()(step);
   // Loops go back; the file's progress does not.
-  source.on_line([total = unknown ? 0.0 : grid::as_double(size),
+  source.on_line([total = unknown ? 0.0 : as_double(size),
                   furthest = std::uint64_t{0}](std::uint64_t offset) mutable {
     furthest = std::max(furthest, offset);
-    progress_is(grid::as_double(furthest), total);
+    progress_is(as_double(furthest), total);
   });
   return source;
 }
 
-grid::SourceFile GcodeText::source() const {
+SourceFile GcodeText::source() const {
   files::Sha256 hash;
-  std::string name = files::name_without_folders(path_);
+  std::string name = name_without_folders(path_);
   if (text_) return {std::move(name), hash.add(*text_).text()};
   std::ifstream file(path_, std::ios::binary);
   std::array<char, 65536> bytes{};
   while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
-    hash.add({bytes.data(), grid::as_size(file.gcount())});
+    hash.add({bytes.data(), as_size(file.gcount())});
   }
   return {std::move(name), hash.text()};
 }
@@ -122,7 +114,7 @@ std::string compensated_name(const std::string& program) {
   return path.replace_extension(".true" + path.extension().string()).string();
 }
 
-GcodeRefused::GcodeRefused(std::vector<gcode::Problem> found)
+GcodeRefused::GcodeRefused(std::vector<Problem> found)
     : Failed("", "bad_program", sentence_of(found), exit_code(found.front().name)),
       problems(std::move(found)) {}
 
@@ -131,22 +123,22 @@ std::string in_quotes(std::string_view text) {
                      report::replaced(std::string(text), {{"\\", "\\\\"}, {"\"", "\\\""}}));
 }
 
-int report(const std::string& file, const gcode::Problem& problem) {
+int report(const std::string& file, const Problem& problem) {
   end_progress();
-  say("{}: {}", files::name_in_messages(file), problem.message());
+  say("{}: {}", name_in_messages(file), problem.message());
   return exit_code(problem.name);
 }
 
-int report(const std::string& file, const gcode::Findings& findings) {
+int report(const std::string& file, const Findings& findings) {
   end_progress();
-  for (const gcode::Note& note : findings.notes) {
-    say("{}: line {}: note: {}", files::name_in_messages(file), note.line, note.sentence);
+  for (const Note& note : findings.notes) {
+    say("{}: line {}: note: {}", name_in_messages(file), note.line, note.sentence);
   }
   if (findings.note_count > findings.notes.size()) {
     say("... and {} more notes", findings.note_count - findings.notes.size());
   }
   int code = kDone;
-  for (const gcode::Problem& problem : findings.problems) {
+  for (const Problem& problem : findings.problems) {
     const int own = report(file, problem);
     if (code == kDone) code = own;
   }
@@ -156,9 +148,9 @@ int report(const std::string& file, const gcode::Findings& findings) {
   return code;
 }
 
-gcode::LineSource written_so_far(files::PendingFile& file) {
+LineSource written_so_far(PendingFile& file) {
   const std::string place = file.flushed();
-  return place.empty() ? gcode::LineSource::from_text(file.held())
+  return place.empty() ? LineSource::from_text(file.held())
                        : lines_of_file(place, "room for the whole file");
 }
 
@@ -188,7 +180,7 @@ std::optional<double> PromisedError::outside_mm() const {
 
 PromisedError promised_along(const gcode::CutPlaces& cuts, const GcodeMachine& machine,
                              double path_mm) {
-  const auto* found = machine.target.as<files::FittedAnchors>();
+  const auto* found = machine.target.as<FittedAnchors>();
   if (found == nullptr || found->fit.scale)
     return {cuts.expected(*machine.target.lengths), path_mm};
   // A scale that was not taped is taken as true, so that the error excludes it.

@@ -22,6 +22,15 @@
 
 namespace chaintrue::cli {
 
+using gcode::CompensateOptions;
+using gcode::Findings;
+using gcode::Firmware;
+using gcode::LineSource;
+using gcode::Move;
+using gcode::Note;
+using gcode::PathSample;
+using gcode::Problem;
+
 // The options of `chaintrue gcode`, and which map, machine and controller they name.
 
 struct GcodeOptions {
@@ -40,9 +49,9 @@ struct GcodeOptions {
   std::string frame = "marks";
   std::string home = "0,0";
   std::string output = "-";
-  std::string report;               ///< compensate: a page with a picture
-  gcode::CompensateOptions limits;  ///< as stated; compensate_options() adds the controller's
-  gcode::Dialect words;             ///< as stated; dialect() adds the home and the codes
+  std::string report;        ///< compensate: a page with a picture
+  CompensateOptions limits;  ///< as stated; compensate_options() adds the controller's
+  gcode::Dialect words;      ///< as stated; dialect() adds the home and the codes
   double every_mm = 10.0;
   bool no_verify = false;  ///< compensate: write without having run the output
   bool forced = false;     ///< compensate: even with a map that is unfit for cutting
@@ -54,7 +63,7 @@ struct GcodeOptions {
 };
 
 /// The firmware of --controller, including Maslow 4 and Marlin; null if not stated.
-const gcode::Firmware* stated_firmware(std::string_view name);
+const Firmware* stated_firmware(std::string_view name);
 
 /// Opens the file given as --map and warns if its scale is unknown. \throws InputError for a bad file.
 Target open_target(const GcodeOptions& options);
@@ -62,18 +71,18 @@ Target open_target(const GcodeOptions& options);
 /// How the machine's controller executes a program.
 struct GcodeController {
   std::unique_ptr<const model::ControllerKinematics> kinematics;
-  const gcode::Firmware* firmware;
+  const Firmware* firmware;
   /// Empty if it does not clamp.
   std::optional<gcode::ClampBox> clamp_box;
   /// The area for programs: the bed, the frame of the anchors of four belts, a plotter's drawing
   /// area.
-  interp::Rectangle sheet;
+  Rectangle sheet;
   /// From the map's machine; none for belts and plotters.
-  model::ChainLengths half_play_mm;
+  ChainLengths half_play_mm;
   /// Its settings, for the header of compensated programs.
   std::vector<files::NamedSetting> settings;
   /// A firmware with its own settings; then `firmware` points to this.
-  std::shared_ptr<const gcode::Firmware> with_settings = nullptr;
+  std::shared_ptr<const Firmware> with_settings = nullptr;
 };
 
 /// Map, machine and controller, which belong together.
@@ -90,13 +99,12 @@ struct GcodeMachine {
 };
 
 /// The area for programs with --machine; without it the usual bed. \throws InputError.
-interp::Rectangle sheet_of(const GcodeOptions& options);
+Rectangle sheet_of(const GcodeOptions& options);
 
 /// With a map: checks that the tolerance exceeds the rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);
 /// Inputs of compensating, except the program.
-gcode::CompensateOptions compensate_options(const GcodeOptions& options,
-                                            const GcodeMachine& machine);
+CompensateOptions compensate_options(const GcodeOptions& options, const GcodeMachine& machine);
 
 /// Inputs of running the output on the simulated machine.
 gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMachine& machine);
@@ -106,11 +114,11 @@ gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMach
 class GcodeText {
  public:
   explicit GcodeText(const std::string& path);
-  gcode::LineSource open() const;
+  LineSource open() const;
   /// As above, and shows this step of the work and the share of the program that was read.
-  gcode::LineSource open(const grid::WorkStep& step) const;
+  LineSource open(const WorkStep& step) const;
   /// Its name without folders, and its hash.
-  grid::SourceFile source() const;
+  SourceFile source() const;
 
  private:
   std::string path_;
@@ -125,21 +133,21 @@ std::string compensated_name(const std::string& program);
 
 /// Thrown for a refused program, after all of its problems were printed.
 struct GcodeRefused : Failed {
-  explicit GcodeRefused(std::vector<gcode::Problem> found);
-  std::vector<gcode::Problem> problems;
+  explicit GcodeRefused(std::vector<Problem> found);
+  std::vector<Problem> problems;
 };
 
 /// A JSON text.
 std::string in_quotes(std::string_view text);
 
 /// Prints a problem to stderr as `file: line 3: ...`; returns the exit code of its kind.
-int report(const std::string& file, const gcode::Problem& problem);
+int report(const std::string& file, const Problem& problem);
 /// Prints all findings and how many there are beyond those kept; the exit code of the first, or
 /// kDone.
-int report(const std::string& file, const gcode::Findings& findings);
+int report(const std::string& file, const Findings& findings);
 
 /// The content of a pending file, as a program. \throws InputError if it could not be written.
-gcode::LineSource written_so_far(files::PendingFile& file);
+LineSource written_so_far(PendingFile& file);
 
 // The verbs of `chaintrue gcode`; each returns the exit code. \throws files::InputError.
 using GcodeVerb = int(const GcodeOptions& options);

@@ -35,7 +35,7 @@ gcode::Dialect GcodeOptions::dialect() const {
       map_file ? map_file->kind == FileKind::plotter : controller.empty();
   if (map_file && map_file->kind == FileKind::plotter) {
     const grid::SetPlotter set = load_plotter(*map_file).plotter.set;
-    if (set.firmware == model::PlotterFirmware::marlin && set.home) {
+    if (set.firmware == PlotterFirmware::marlin && set.home) {
       dialect.plotter_home_mm = {set.home->x_mm + set.pins_middle.x_mm - zero.x_mm,
                                  set.home->y_mm + set.pins_middle.y_mm - zero.y_mm};
     }
@@ -53,9 +53,9 @@ BedPoint GcodeOptions::home_mm() const {
   refuse("--home", home, "two numbers in mm with a comma between, such as 120,-40");
 }
 
-const gcode::Firmware* stated_firmware(std::string_view name) {
+const Firmware* stated_firmware(std::string_view name) {
   if (name == kFourBeltsName) return &gcode::firmware_of_four_belts();
-  if (name == kMarlinName) return &gcode::firmware(model::PlotterFirmware::marlin);
+  if (name == kMarlinName) return &gcode::firmware(PlotterFirmware::marlin);
   const auto kind = controller_kind(name);
   return kind ? &gcode::firmware(*kind) : nullptr;
 }
@@ -63,9 +63,9 @@ const gcode::Firmware* stated_firmware(std::string_view name) {
 namespace {
 
 /// The frame of the anchors; commands count from 0, 0.
-interp::Rectangle rectangle_of(const BeltMachine& machine) {
+Rectangle rectangle_of(const BeltMachine& machine) {
   const auto& anchors = machine.anchors;
-  const model::FramePoint centre = model::centre_of(machine);
+  const FramePoint centre = centre_of(machine);
   return {std::min(anchors.tl.x_mm, anchors.bl.x_mm) - centre.x_mm,
           std::max(anchors.tr.x_mm, anchors.br.x_mm) - centre.x_mm,
           std::min(anchors.bl.y_mm, anchors.br.y_mm) - centre.y_mm,
@@ -75,11 +75,10 @@ interp::Rectangle rectangle_of(const BeltMachine& machine) {
 /// Under a Maslow 4's names.
 std::vector<files::NamedSetting> settings_of(const BeltMachine& machine) {
   std::vector<files::NamedSetting> settings;
-  for (const model::Belt belt : model::kBelts) {
+  for (const Belt belt : kBelts) {
     const model::Anchor& anchor = machine.anchors[belt];
     for (const auto& [axis, value] : {std::pair('X', anchor.x_mm), std::pair('Y', anchor.y_mm)})
-      settings.push_back(
-          {fmt::format("{}{}", model::name(belt), axis), fmt::format("{:.4f}", value)});
+      settings.push_back({fmt::format("{}{}", name(belt), axis), fmt::format("{:.4f}", value)});
   }
   settings.push_back({"Scale_X", fmt::format("{:.6g}", machine.scale_x)});
   settings.push_back({"Scale_Y", fmt::format("{:.6g}", machine.scale_y)});
@@ -87,7 +86,7 @@ std::vector<files::NamedSetting> settings_of(const BeltMachine& machine) {
 }
 
 GcodeController controller_of(const GcodeOptions& options, const Target& target,
-                              const files::FittedAnchors&) {
+                              const FittedAnchors&) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
     refuse("--controller", options.controller,
            "\"maslow4\", or to be left out, because anchors of four belts belong to a Maslow 4");
@@ -103,7 +102,7 @@ GcodeController controller_of(const GcodeOptions& options, const Target& target,
           settings_of(believed)};
 }
 
-interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
+Rectangle rectangle_of(const grid::SetPlotter& set) {
   const model::DrawingArea& area = set.machine.area;
   const BedPoint& by = set.pins_middle;
   return {area.left_mm + by.x_mm, area.right_mm + by.x_mm, area.bottom_mm + by.y_mm,
@@ -112,9 +111,9 @@ interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
 
 /// Under the names in a chaintrue_plotter file.
 std::vector<files::NamedSetting> settings_of(const grid::SetPlotter& set) {
-  const model::PlotterMachine& m = set.machine;
+  const PlotterMachine& m = set.machine;
   return {
-      {"firmware", std::string(model::name(set.firmware))},
+      {"firmware", std::string(name(set.firmware))},
       {"pin_spacing_mm", fmt::format("{:.4f}", m.pin_spacing_mm)},
       {"pin_rise_mm", fmt::format("{:.4f}", m.pin_rise_mm)},
       {"zero", fmt::format("{:.4f} {:.4f}", m.zero_mm.left_mm, m.zero_mm.right_mm)},
@@ -123,14 +122,14 @@ std::vector<files::NamedSetting> settings_of(const grid::SetPlotter& set) {
 
 /// The present settings of a V-plotter's controller.
 GcodeController controller_of(const GcodeOptions& options, const Target&,
-                              const grid::KnownPlotter& plotter) {
+                              const KnownPlotter& plotter) {
   const grid::SetPlotter set =
       options.machine.empty() ? plotter.set : load_plotter(open_input(options.machine)).plotter.set;
   if (set.firmware != plotter.set.firmware) {
-    refuse(options.machine, "/set/firmware", std::string(model::name(set.firmware)),
-           fmt::format("\"{}\", as in {}", model::name(plotter.set.firmware), options.map));
+    refuse(options.machine, "/set/firmware", std::string(name(set.firmware)),
+           fmt::format("\"{}\", as in {}", name(plotter.set.firmware), options.map));
   }
-  const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
+  const auto firmware = std::make_shared<Firmware>(gcode::firmware(set.firmware));
   if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
   if (!options.controller.empty() && options.controller != firmware->name) {
     refuse("--controller", options.controller,
@@ -149,7 +148,7 @@ GcodeController controller_of(const GcodeOptions& options, const Target&,
 
 Machine believed_machine(const GcodeOptions& options, const CompensationMap& map) {
   if (!options.machine.empty()) return read_machine_input(options.machine);
-  const auto stated = grid::stated_machine(map);
+  const auto stated = stated_machine(map);
   if (!options.settings.empty()) {
     const SettingsFile now = read_settings_file(options.settings);
     const auto in_place = controller_kind(options.controller);
@@ -186,19 +185,16 @@ GcodeController controller_of(const GcodeOptions& options, const Target&,
     say_other_controller(map, *kind);
     machine.controller.kind = *kind;
   }
-  return {model::make_controller_kinematics(machine),
-          &gcode::firmware(machine.controller.kind),
-          gcode::clamp_box(machine),
-          grid::area_of(machine.bed),
-          gcode::half_play_mm(machine),
-          files::settings_in_force(machine)};
+  return {make_controller_kinematics(machine), &gcode::firmware(machine.controller.kind),
+          gcode::clamp_box(machine),           grid::area_of(machine.bed),
+          gcode::half_play_mm(machine),        files::settings_in_force(machine)};
 }
 
 }  // namespace
 
 Target open_target(const GcodeOptions& options) {
   Target target = open_target(*options.map_file, options.frame);
-  const auto* found = target.as<files::FittedAnchors>();
+  const auto* found = target.as<FittedAnchors>();
   if (found != nullptr && !found->fit.scale) {
     say("The scale is unknown. An encoder turn is assumed to be {:g} mm of belt, and parts can be "
         "no more accurate than that. One long taped distance, or holes, determine the scale.",
@@ -214,7 +210,7 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options)
                      *target.content)),
       corrector(*target.lengths, *controller.kinematics, *controller.firmware) {}
 
-interp::Rectangle sheet_of(const GcodeOptions& options) {
+Rectangle sheet_of(const GcodeOptions& options) {
   if (options.machine.empty()) return grid::area_of(Bed{});
   const InputFile file = open_input(options.machine);
   if (file.kind == FileKind::plotter) return rectangle_of(load_plotter(file).plotter.set);

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "grid/containers.hpp"
-#include "grid/files/sources.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/gcode/emitter.hpp"
@@ -75,44 +73,44 @@ namespace {
 /// Whether a program without a unit is assumed to be in mm, decided at its first move.
 class AssumedUnit final : public gcode::Sink {
  public:
-  void note(const gcode::Note& note) override {
+  void note(const Note& note) override {
     if (note.name == "units_assumed") note_ = note;
   }
   /// Ends the program.
-  void move(const gcode::Move&) override { throw gcode::Refusal({}); }
-  const std::optional<gcode::Note>& note() const { return note_; }
+  void move(const Move&) override { throw gcode::Refusal({}); }
+  const std::optional<Note>& note() const { return note_; }
 
  private:
-  std::optional<gcode::Note> note_;
+  std::optional<Note> note_;
 };
 
-std::optional<gcode::Note> assumed_unit(const GcodeText& program, const GcodeOptions& options) {
+std::optional<Note> assumed_unit(const GcodeText& program, const GcodeOptions& options) {
   AssumedUnit unit;
   auto source = program.open();
-  (void)gcode::run_program(source, options.dialect(), unit);
+  (void)run_program(source, options.dialect(), unit);
   return unit.note();
 }
 
 /// The current map and program, read before the file that is run because that may come through a
 /// pipe too.
-std::vector<grid::SourceFile> made_from(const GcodeOptions& options, const GcodeText& original) {
-  std::vector<grid::SourceFile> sources = files::sources_read();
-  const std::string map = files::name_without_folders(options.map);
-  std::erase_if(sources, [&](const grid::SourceFile& file) { return file.name != map; });
+std::vector<SourceFile> made_from(const GcodeOptions& options, const GcodeText& original) {
+  std::vector<SourceFile> sources = files::sources_read();
+  const std::string map = name_without_folders(options.map);
+  std::erase_if(sources, [&](const SourceFile& file) { return file.name != map; });
   sources.push_back(original.source());
   return sources;
 }
 
 /// If the file states its sources and one of these is not among them.
-void say_other_sources(const std::vector<grid::SourceFile>& sources, const GcodeText& run,
+void say_other_sources(const std::vector<SourceFile>& sources, const GcodeText& run,
                        const std::string& name) {
-  const std::vector<std::string> hashes = gcode::hashes_in_head(run.open());
+  const Words hashes = hashes_in_head(run.open());
   if (hashes.empty()) return;
-  for (const grid::SourceFile& file : sources) {
+  for (const SourceFile& file : sources) {
     const std::string beginning = file.sha256.substr(0, gcode::kHashDigits);
-    if (grid::contains(hashes, beginning)) continue;
-    say("{} was made from another version of {}: compensate again.",
-        files::name_without_folders(name), file.name);
+    if (contains(hashes, beginning)) continue;
+    say("{} was made from another version of {}: compensate again.", name_without_folders(name),
+        file.name);
   }
 }
 
@@ -121,24 +119,24 @@ void say_other_sources(const std::vector<grid::SourceFile>& sources, const Gcode
 int run_gcode_verify(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText original(options.program);
-  const std::vector<grid::SourceFile> sources = made_from(options, original);
+  const std::vector<SourceFile> sources = made_from(options, original);
   const GcodeText other(options.other);
   say_other_sources(sources, other, options.other);
   const auto assumed = assumed_unit(original, options);
   gcode::VerifyOptions settings = verify_options(options, machine);
   gcode::CutPlaces cuts;
-  settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
+  settings.on_move = [&cuts](const Move& move) { cuts.add(move); };
   auto intended = original.open({"the program on the simulated machine", 1, 2});
   auto run = other.open();
-  const auto summary = gcode::verify(intended, run, machine.corrector, options.dialect(), settings);
+  const auto summary = verify(intended, run, machine.corrector, options.dialect(), settings);
   if (!summary) {
     report(summary.error().in_original ? options.program : options.other, summary.error().problem);
     throw GcodeRefused({summary.error().problem});
   }
   auto again = original.open({"the same without compensation", 2, 2});
-  const auto control = gcode::uncompensated(again, machine.corrector, options.dialect(), settings);
+  const auto control = uncompensated(again, machine.corrector, options.dialect(), settings);
   if (assumed) {
-    gcode::Findings findings;
+    Findings findings;
     findings.add(*assumed);
     report(options.program, findings);
   }

@@ -80,7 +80,7 @@ Facts facts_of(const InputFiles& files) {
   Facts facts = facts::nothing;
   for (const InputFile& file : files) {
     facts |= file.fact() & facts::chains;
-    if (!files::is_json(file.text)) facts |= facts::table;
+    if (!is_json(file.text)) facts |= facts::table;
   }
   const bool is_one_grid = files.size() == 1 && (facts & facts::grid) != 0;
   return is_one_grid ? facts | facts::one_grid : facts;
@@ -95,7 +95,7 @@ std::optional<Machine> machine_of(const GridInput& input) {
 
 }  // namespace
 
-void add_tape_options(Verb verb, files::TapeOptions& input) {
+void add_tape_options(Verb verb, TapeOptions& input) {
   verb.has({{"--tape-sigma-mm",
              {input.sigma_mm, files::kTapeSigmaMm},
              "Holes: standard deviation (1 sigma) of a tape reading",
@@ -126,9 +126,8 @@ MeasuredGrid read_grid_input(const GridInput& input) {
   return grid_of(file, input, {.machine = machine_of(input), .inches = input.inches});
 }
 
-grid::MeasuredFile load_measured(const InputFile& file, const GridInput& input,
-                                 const files::TapeOptions& tape, MeasuredUse use,
-                                 const Machine* otherwise) {
+MeasuredFile load_measured(const InputFile& file, const GridInput& input, const TapeOptions& tape,
+                           MeasuredUse use, const Machine* otherwise) {
   require_kind(file, {FileKind::grid, FileKind::holes});
   files::MeasuredOptions options{.machine = machine_of(input),
                                  .few = use == MeasuredUse::check,
@@ -142,7 +141,7 @@ grid::MeasuredFile load_measured(const InputFile& file, const GridInput& input,
   return {file.name, std::move(read.holes)};
 }
 
-ReadingCounts counts_of(const grid::Measured& measured) {
+ReadingCounts counts_of(const Measured& measured) {
   ReadingCounts counts;
   for (const auto* grid : measured.grids()) counts.points += grid->points.size();
   for (const auto* set : measured.holes()) {
@@ -158,14 +157,14 @@ InputFiles open_inputs(const std::string& path, const Words& with) {
   return files;
 }
 
-grid::Measured load_measured(const InputFiles& files, const GridInput& input,
-                             const files::TapeOptions& tape, MeasuredUse use) {
-  grid::Measured measured;
+Measured load_measured(const InputFiles& files, const GridInput& input, const TapeOptions& tape,
+                       MeasuredUse use) {
+  Measured measured;
   measured.add(load_measured(files.front(), input, tape, use));
   OptionProblems problems;
   for (std::size_t k = 1; k < files.size(); ++k) {
     // A further file may have few readings: the first has enough of them.
-    grid::MeasuredFile other = load_measured(files[k], input, tape, MeasuredUse::check);
+    MeasuredFile other = load_measured(files[k], input, tape, MeasuredUse::check);
     const auto& machine = other.machine();
     if (machine && measured.machine()) {
       const std::string difference = grid::difference_of_settings(*measured.machine(), *machine);
@@ -176,7 +175,7 @@ grid::Measured load_measured(const InputFiles& files, const GridInput& input,
       }
     }
     for (std::size_t before = 0; before < k; ++before) {
-      if (grid::same_readings(measured.files()[before], other)) {
+      if (same_readings(measured.files()[before], other)) {
         problems.add("--with", files[k].path,
                      fmt::format("another session: it has exactly the same readings as {}",
                                  files[before].path),

@@ -111,15 +111,15 @@ struct Maslow4Command {
 files::Maslow4Options options_of(const Maslow4Command& command) {
   files::Maslow4Options options;
   if (!command.settings.empty()) {
-    options.settings = files::read_whole_file(command.settings);
-    options.settings_file = files::name_in_messages(command.settings);
+    options.settings = read_whole_file(command.settings);
+    options.settings_file = name_in_messages(command.settings);
   }
   for (const model::BeltLengths lengths :
        {model::BeltLengths::belt, model::BeltLengths::belt_and_arm, model::BeltLengths::span}) {
     if (command.lengths == name(lengths)) options.lengths = lengths;
   }
-  if (command.orientation == "upright") options.orientation = model::Orientation::upright;
-  if (command.orientation == "flat") options.orientation = model::Orientation::flat;
+  if (command.orientation == "upright") options.orientation = Orientation::upright;
+  if (command.orientation == "flat") options.orientation = Orientation::flat;
   return options;
 }
 
@@ -133,12 +133,12 @@ std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
   }
   std::vector<files::Maslow4Import> runs;
   for (const std::string& input : command.inputs) {
-    const std::string text = files::read_whole_file(input);
+    const std::string text = read_whole_file(input);
     std::vector<files::LogPart> parts(1);
     if (!command.runs.empty()) parts = files::log_parts_of(command.runs, "--runs");
     for (const files::LogPart& part : parts) {
       options.part = part;
-      runs.push_back(files::parse_maslow4(text, files::name_in_messages(input), options));
+      runs.push_back(files::parse_maslow4(text, name_in_messages(input), options));
     }
   }
   return runs;
@@ -148,7 +148,7 @@ std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
 void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
   if (read.runs.size() < 2) return;
   say("The log holds {} runs:", read.runs.size());
-  for (std::size_t i = 0; i < read.runs.size(); ++i) {
+  for (const auto i : each_index(read.runs)) {
     const files::LoggedRun& run = read.runs[i];
     say("  {} {:>3}  points {}:{}  line {}{}{}", i == read.taken ? '>' : ' ', i + 1,
         run.points.first, run.points.last, run.line, run.heading.empty() ? "" : "  ", run.heading);
@@ -160,10 +160,10 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
 
 /// The pulls of the belts, if more than one is known.
 void tell_pulls(const MeasuredBelts& belts) {
-  const std::vector<double> different = grid::different_pulls(belts);
+  const std::vector<double> different = different_pulls(belts);
   if (different.size() < 2) return;
   say("One session with {} pulls: the lowest {}, the others {:.3g} times as strong.",
-      different.size(), grid::words_of(*grid::reference_pull(belts)),
+      different.size(), grid::words_of(*reference_pull(belts)),
       fmt::join(different.begin() + 1, different.end(), ", "));
 }
 
@@ -173,7 +173,7 @@ int import_maslow4(const Maslow4Command& command) {
   std::vector<files::Maslow4Import> runs = runs_of(command);
   const bool is_one = runs.size() == 1;
   const files::Maslow4Import read = files::one_session(std::move(runs), pulls);
-  std::vector<std::string> comments;
+  Words comments;
   for (const std::string& sentence : read.assumed) comments.push_back("assumed: " + sentence);
   write_output(command.output, files::write_belts(read.belts, comments));
   print_warnings(read.warnings);

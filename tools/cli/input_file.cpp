@@ -5,11 +5,9 @@
 #include <set>
 
 #include "grid/belts/belt_map.hpp"
-#include "grid/containers.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/map/map_in_frame.hpp"
 #include "grid/plotter/plotter_map.hpp"
 #include "tools/cli/talk.hpp"
@@ -17,7 +15,7 @@
 namespace chaintrue::cli {
 
 InputFile open_input(const std::string& path) {
-  InputFile file{path, files::name_in_messages(path), files::read_whole_file(path)};
+  InputFile file{path, name_in_messages(path), read_whole_file(path)};
   file.kind = files::kind_of(file.text, file.name);
   return file;
 }
@@ -26,8 +24,8 @@ Facts InputFile::fact() const { return Facts{1} << static_cast<Facts>(kind); }
 
 void require_kind(const InputFile& file, const std::vector<FileKind>& taken,
                   const std::string& also) {
-  if (grid::contains(taken, file.kind)) return;
-  if (also.empty() && file.kind == FileKind::belt_holes && grid::contains(taken, FileKind::holes)) {
+  if (contains(taken, file.kind)) return;
+  if (also.empty() && file.kind == FileKind::belt_holes && contains(taken, FileKind::holes)) {
     return require_kind(file, taken,
                         "holes cut by four belts are fitted together with belt lengths: chaintrue "
                         "fit belts.json --with FILE");
@@ -37,7 +35,7 @@ void require_kind(const InputFile& file, const std::vector<FileKind>& taken,
   const auto is_table = [](FileKind kind) {
     return kind == FileKind::grid || kind == FileKind::holes;
   };
-  if (!is_json && grid::none_of(taken, is_table)) (void)files::file_type_of(file.text, file.name);
+  if (!is_json && none_of(taken, is_table)) (void)files::file_type_of(file.text, file.name);
   const std::string what_takes = is_json && file.kind != FileKind::belt_holes && also.empty()
                                      ? files::what_takes(files::file_type_of(file.text, file.name))
                                      : "";
@@ -51,11 +49,11 @@ void require_kind(const InputFile& file, const std::vector<FileKind>& taken,
          ProblemKind::file_kind);
 }
 
-files::FittedAnchors load_anchors(const InputFile& file) {
+FittedAnchors load_anchors(const InputFile& file) {
   return files::parse_anchors(file.text, file.name);
 }
 
-const grid::HolesWithBelts* holes_of(const files::FittedAnchors& found) {
+const HolesWithBelts* holes_of(const FittedAnchors& found) {
   return found.holes ? &*found.holes : nullptr;
 }
 
@@ -69,9 +67,9 @@ Machine load_machine(const InputFile& file) {
   return std::move(read.machine);
 }
 
-files::ReadBelts load_belts(const InputFile& file, const std::string& work,
-                            const std::vector<std::size_t>& without) {
-  files::ReadBelts read = files::parse_belts(file.text, file.name, without);
+ReadBelts load_belts(const InputFile& file, const std::string& work,
+                     const std::vector<std::size_t>& without) {
+  ReadBelts read = files::parse_belts(file.text, file.name, without);
   print_warnings(read.warnings);
   if (read.belts.points.size() > grid::kMostBeltPoints) {
     refuse(file.name, "/points",
@@ -139,7 +137,7 @@ struct LengthsOf {
   Lengths operator()(const CompensationMap& map) const {
     return std::make_unique<const grid::MapInFrame>(map, frame);
   }
-  Lengths operator()(const files::FittedAnchors& found) const {
+  Lengths operator()(const FittedAnchors& found) const {
     if (!found.holes && !found.fit.coordinates.front().stated_mm) {
       refuse(file.name, "/fit/coordinates", "no stated_mm",
              "anchors fitted to a file with the anchors in force, which define the origin of "
@@ -147,9 +145,9 @@ struct LengthsOf {
     }
     return std::make_unique<const grid::BeltMap>(found.fit, holes_of(found));
   }
-  Lengths operator()(const grid::KnownPlotter& plotter) const {
+  Lengths operator()(const KnownPlotter& plotter) const {
     try {
-      return std::make_unique<const grid::MechanismMap>(grid::plotter_map(plotter));
+      return std::make_unique<const grid::MechanismMap>(plotter_map(plotter));
     } catch (const std::invalid_argument& error) {
       refuse(file.name, "/set/machine/area", error.what(),
              "an area that the pen reaches, with the old and the new settings");
@@ -186,8 +184,8 @@ OptionRow frame_row(std::string& frame, std::string help) {
           "marks"};
 }
 
-grid::KnownPlotter load_found_plotter(const InputFile& file) {
-  grid::KnownPlotter plotter = load_plotter(file).plotter;
+KnownPlotter load_found_plotter(const InputFile& file) {
+  KnownPlotter plotter = load_plotter(file).plotter;
   if (!plotter.found) {
     refuse(file.name, "/found", "",
            "results of a test drawing; chaintrue fit drawing.json -o found.json writes a plotter "

@@ -25,6 +25,8 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/measured_options.hpp"
 #include "grid/files/plotter_settings.hpp"
+#include "grid/files/sources.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/map_check.hpp"
@@ -36,6 +38,12 @@
 #include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
+
+using files::is_json;
+using files::name_in_messages;
+using files::name_without_folders;
+using files::read_whole_file;
+using model::ControllerSettings;
 
 struct InputFile {
   std::string path;  ///< as given
@@ -59,17 +67,17 @@ void require_kind(const InputFile& file, const std::vector<FileKind>& taken,
                   const std::string& also = "");
 
 /// Each reads a file of its kind. \throws InputError with every problem.
-files::FittedAnchors load_anchors(const InputFile& file);
+FittedAnchors load_anchors(const InputFile& file);
 /// Null if there are none.
-const grid::HolesWithBelts* holes_of(const files::FittedAnchors& found);
+const HolesWithBelts* holes_of(const FittedAnchors& found);
 Diagnosis load_diagnosis(const InputFile& file);
 Machine load_machine(const InputFile& file);
 /// The belts of a chaintrue_belts file.
 BeltMachine load_belt_machine(const InputFile& file);
 /// At most kMostBeltPoints places; `work` is their purpose: "a fit". Leaves out the points
 /// `without`, counted from 1.
-files::ReadBelts load_belts(const InputFile& file, const std::string& work,
-                            const std::vector<std::size_t>& without = {});
+ReadBelts load_belts(const InputFile& file, const std::string& work,
+                     const std::vector<std::size_t>& without = {});
 
 CompensationMap load_map(const InputFile& file);
 
@@ -109,7 +117,7 @@ OptionRow effects_row(GridInput& input);
 MeasuredGrid read_grid_input(const GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
-void add_tape_options(Verb verb, files::TapeOptions& input);
+void add_tape_options(Verb verb, TapeOptions& input);
 
 /// --without, for a verb that reads belts.
 [[nodiscard]] OptionRow without_row(std::string& without);
@@ -121,14 +129,13 @@ enum class MeasuredUse { fit, check };
 
 /// A grid or a set of holes, as the file is; `otherwise` is the machine for a file that names none,
 /// if available. \throws InputError.
-grid::MeasuredFile load_measured(const InputFile& file, const GridInput& input,
-                                 const files::TapeOptions& tape, MeasuredUse use,
-                                 const Machine* otherwise = nullptr);
+MeasuredFile load_measured(const InputFile& file, const GridInput& input, const TapeOptions& tape,
+                           MeasuredUse use, const Machine* otherwise = nullptr);
 
 /// The first file and those of --with: any mix of grids and holes of one machine, with equal stated
 /// settings. \throws InputError.
-grid::Measured load_measured(const InputFiles& files, const GridInput& input,
-                             const files::TapeOptions& tape, MeasuredUse use);
+Measured load_measured(const InputFiles& files, const GridInput& input, const TapeOptions& tape,
+                       MeasuredUse use);
 
 struct ReadingCounts {
   std::size_t points = 0;
@@ -136,7 +143,7 @@ struct ReadingCounts {
   std::size_t holes = 0;
 };
 /// Counts the readings of all files together.
-ReadingCounts counts_of(const grid::Measured& measured);
+ReadingCounts counts_of(const Measured& measured);
 
 /// The file, and those of --with.
 InputFiles open_inputs(const std::string& path, const Words& with);
@@ -206,22 +213,21 @@ std::string_view name_of(ControllerKind kind);
 /// \throws InputError for a bad file, settings of a wall plotter, or a map without a machine.
 [[nodiscard]] CompensationMap with_settings_of(const std::string& settings,
                                                const std::string& map_name,
-                                               const CompensationMap& map,
-                                               grid::Measured& measured);
+                                               const CompensationMap& map, Measured& measured);
 
 /// Whether a map was made from the file `from` with its present content.
 bool was_made_from(const std::string& made, const std::string& from);
 
 /// The controller's settings for the map from which export made this one, if that map is next to it
 /// unchanged.
-std::optional<model::ControllerSettings> settings_before(const std::string& map);
+std::optional<ControllerSettings> settings_before(const std::string& map);
 
 /// `found` is the check of `map` against `measured`. Empty if the map's settings fit, or if the
 /// others do not explain the points either. The others are those of `before`, the settings before
 /// the map's numbers; else those of export groundcontrol.
-[[nodiscard]] std::optional<grid::Check> with_typed_settings(
-    const CompensationMap& map, const grid::Measured& measured, const grid::Check& found,
-    std::optional<model::ControllerSettings> before = {});
+[[nodiscard]] std::optional<Check> with_typed_settings(
+    const CompensationMap& map, const Measured& measured, const Check& found,
+    std::optional<ControllerSettings> before = {});
 
 // What points are asked of and programs are made for: a compensation map, the anchors of four
 // belts, or the V-plotter that a test drawing found. Verbs ask `lengths`; `content` holds
@@ -232,7 +238,7 @@ std::optional<model::ControllerSettings> settings_before(const std::string& map)
 //   if (const auto answer = target.lengths->query({100.0, -200.0})) use(*answer);
 // \endcode
 struct Target {
-  using Content = std::variant<CompensationMap, files::FittedAnchors, grid::KnownPlotter>;
+  using Content = std::variant<CompensationMap, FittedAnchors, KnownPlotter>;
   std::unique_ptr<const Content> content;
   std::unique_ptr<const grid::LengthMap> lengths;  ///< may refer to the content
   /// Null for another content.
@@ -253,6 +259,6 @@ Target open_target(const InputFile& file, const std::string& frame,
 OptionRow frame_row(std::string& frame, std::string help);
 
 /// A chaintrue_plotter with the results of a drawing. \throws InputError without them.
-grid::KnownPlotter load_found_plotter(const InputFile& file);
+KnownPlotter load_found_plotter(const InputFile& file);
 
 }  // namespace chaintrue::cli

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <fmt/format.h>
-
 #include <string_view>
 
-#include "grid/containers.hpp"
-#include "grid/files/sources.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 
@@ -20,38 +16,35 @@ constexpr std::string_view kWithoutTrace[] = {"--force",   "--json",    "--quiet
 std::string in_words(const GivenOption& option, bool is_file) {
   std::string text = option.name;
   for (const std::string& word : option.words)
-    text += " " + (is_file ? files::name_without_folders(word) : word);
+    text += " " + (is_file ? name_without_folders(word) : word);
   return text;
 }
 
 }  // namespace
 
-grid::Provenance made_by(Verb verb) {
-  grid::Provenance made_by{std::string(files::version()), verb.path(), {}, files::sources_read()};
+Provenance made_by(Verb verb) {
+  Provenance made_by{std::string(files::version()), verb.path(), {}, files::sources_read()};
   for (const GivenOption& option : verb.given_options()) {
     const Place* place = place_of(option.name);
     const bool is_output = place != nullptr && !place->kinds.empty();
-    if (is_output || grid::contains(kWithoutTrace, option.name)) continue;
+    if (is_output || contains(kWithoutTrace, option.name)) continue;
     made_by.options.push_back(in_words(option, place != nullptr));
   }
   return made_by;
 }
 
-void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Section>& sections) {
+void add_made_by(const std::optional<Provenance>& made_by, std::vector<Section>& sections) {
   if (!made_by) return;
   std::string command = "chaintrue " + made_by->verb;
   for (const std::string& option : made_by->options) command += " " + option;
   Table table{.columns = {{"file"}, {"SHA-256"}}};
-  for (const grid::SourceFile& file : made_by->inputs)
-    table.rows.push_back({{file.name, file.sha256}});
-  Section section{"Where this comes from"};
+  for (const SourceFile& file : made_by->inputs) table.add({file.name, file.sha256});
+  Section section{"Where this comes from", {}, true, Detail::page};
   section.say("Made by version {} with \"{}\".", made_by->version, command);
   if (!table.rows.empty()) {
     table.caption = "sha256sum prints the same hash for an unchanged file.";
     section.blocks.push_back(std::move(table));
   }
-  section.is_folded = true;
-  section.detail = Detail::page;
   sections.push_back(std::move(section));
 }
 

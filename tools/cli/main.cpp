@@ -20,7 +20,7 @@
 namespace chaintrue::cli {
 namespace {
 
-int report_bad_input(const grid::files::InputError& error) {
+int report_bad_input(const InputError& error) {
   std::fflush(stdout);
   for (const auto& problem : error.problems())
     say("{}", in_red(with_name(problem.message(), problem.name())));
@@ -45,24 +45,24 @@ int finish_standard_output(int code, int error_number) {
   if (!is_broken) return code;
   if (errno != 0) error_number = errno;
   if (error_number == EPIPE) return code;
-  return report_bad_input(grid::files::InputError(
+  return report_bad_input(InputError(
       {{"standard output",
         "",
         std::error_code(error_number == 0 ? EIO : error_number, std::generic_category()).message(),
         "something that can be written to",
         {},
-        grid::ProblemKind::output_place}}));
+        ProblemKind::output_place}}));
 }
 
 int with_exit_code(const std::function<int()>& work) {
   try {
     return finish_standard_output(work(), 0);
-  } catch (const grid::files::InputError& error) {
+  } catch (const InputError& error) {
     return report_bad_input(error);
   } catch (const Failed& failed) {
     if (!failed.about.empty()) say("{}: {}", failed.about, failed.what());
     return failed.code;
-  } catch (const grid::files::ReaderGone&) {
+  } catch (const files::ReaderGone&) {
     return kDone;
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return finish_standard_output(kDone, error.code().value());

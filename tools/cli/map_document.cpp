@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/raster.hpp"
@@ -15,17 +14,13 @@ namespace chaintrue::cli {
 
 namespace {
 
-using grid::MapPoint;
-using report::number_column;
-using report::text_column;
-
 /// Next steps, the most urgent first.
 void put_advice(const MapContents& contents, const Machine* machine, std::string_view source,
                 Document& document) {
   const auto say = [&document](std::string text) {
     document.advice.push_back({std::move(text), Detail::page});
   };
-  for (std::size_t i = 0; i < contents.points.size(); ++i) {
+  for (const auto i : each_index(contents.points)) {
     const MapPoint& point = contents.points[i];
     if (!point.bad) continue;
     say(
@@ -57,7 +52,7 @@ void put_figures(const CompensationMap& map, Document& document) {
   const auto add = [&document](double value_mm, std::string label) {
     document.figures.push_back({fmt::format("{} mm", about_mm(value_mm)), std::move(label)});
   };
-  if (const auto before = grid::error_in_use(map)) {
+  if (const auto before = error_in_use(map)) {
     add(before->rms_mm, kToolTodayLabel);
     add(before->maximum_mm, "today, at worst");
   }
@@ -76,7 +71,7 @@ Section remarks_section(const CompensationMap& map, std::optional<double> wish_m
   }
   if (map.machine() != nullptr && !contents.distances &&
       contents.noise.source != grid::NoiseSource::stated) {
-    section.say("Your readings scatter by about {:.2f} mm{}.", grid::noise_at_tool_mm(map),
+    section.say("Your readings scatter by about {:.2f} mm{}.", noise_at_tool_mm(map),
                 contents.noise.source == grid::NoiseSource::repeats
                     ? ", judged by the marks measured twice"
                     : "");
@@ -103,11 +98,11 @@ Table left_out_points(const CompensationMap& map) {
       .is_headed = true,
       .head_width = 35};
   const auto row = [&table](const char* what, const grid::HeldOutError& error) {
-    table.rows.push_back({{what, error.chain.rms_mm, error.chain.maximum_mm, error.tool.rms_mm,
-                           error.tool.maximum_mm}});
+    table.add({what, error.chain.rms_mm, error.chain.maximum_mm, error.tool.rms_mm,
+               error.tool.maximum_mm});
   };
   if (accuracy.leave_one_out.tool.maximum_mm == 0.0) {
-    table.rows.push_back({{"not tested: too few rows and columns for it"}});
+    table.add({"not tested: too few rows and columns for it"});
     return table;
   }
   row(direct ? "one column or row at a time" : "one at a time", accuracy.leave_one_out);
@@ -131,9 +126,8 @@ void add_tables(const CompensationMap& map, std::vector<Section>& sections) {
 }  // namespace
 
 Tone tone_of(const MapContents& contents) {
-  const bool is_clean =
-      grid::none_of(contents.points, [](const MapPoint& point) { return point.bad; }) &&
-      grid::none_of(contents.settings, [](const auto& setting) { return setting.off; });
+  const bool is_clean = none_of(contents.points, &MapPoint::bad) &&
+                        none_of(contents.settings, &grid::SettingResult::off);
   return is_clean ? Tone::good : Tone::caution;
 }
 
@@ -159,7 +153,7 @@ Document map_document(const CompensationMap& map, std::string_view source, Detai
       Detail::page};
   put_figures(map, document);
   document.remarks = remarks_section(map, wish_mm);
-  if (detail == Detail::page) document.sections = report::picture_sections(map_pictures(map));
+  if (detail == Detail::page) document.sections = picture_sections(map_pictures(map));
   add_tables(map, document.sections);
   document.has_glossary = true;
   document.provenance = provenance_of(source);
@@ -169,7 +163,6 @@ Document map_document(const CompensationMap& map, std::string_view source, Detai
 // The data of a compensation map's pictures.
 namespace {
 
-using grid::MapPoint;
 using report::ErrorStep;
 
 /// The error map's raster over the sheet: squares of some 60 mm on a full sheet.
@@ -182,7 +175,7 @@ report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
 }
 
 /// The machine's bed; without a machine, the measured part.
-interp::Rectangle mapped_sheet(const CompensationMap& map) {
+Rectangle mapped_sheet(const CompensationMap& map) {
   const Machine* machine = map.machine();
   return machine == nullptr ? map.contents().domain : grid::area_of(machine->bed);
 }
@@ -191,7 +184,7 @@ std::vector<report::ReportPoint> points_of(const CompensationMap& map) {
   const MapContents& contents = map.contents();
   const Residual before = residual_before(contents);
   std::vector<report::ReportPoint> points;
-  for (std::size_t i = 0; i < contents.points.size(); ++i) {
+  for (const auto i : each_index(contents.points)) {
     const MapPoint& from = contents.points[i];
     report::ReportPoint point{
         .name = fmt::format("point {}", i + 1), .x_mm = from.mark.x_mm, .y_mm = from.mark.y_mm};
@@ -210,12 +203,12 @@ std::vector<report::ReportPoint> points_of(const CompensationMap& map) {
   return points;
 }
 
-report::ErrorMap error_map_of(const CompensationMap& map, const interp::Rectangle& sheet) {
+report::ErrorMap error_map_of(const CompensationMap& map, const Rectangle& sheet) {
   report::ErrorMap raster{sheet.width() / kColumns, sheet.height() / kRows, {}};
   for (const MarkPoint& at : grid::raster(sheet, kColumns, kRows, grid::RasterOf::cells)) {
     if (const auto answer = map.query(at)) {
       raster.cells.push_back(
-          {at.x_mm, at.y_mm, answer->tool_sigma_mm, std::string(grid::name(answer->status))});
+          {at.x_mm, at.y_mm, answer->tool_sigma_mm, std::string(name(answer->status))});
     }
   }
   return raster;
@@ -224,7 +217,7 @@ report::ErrorMap error_map_of(const CompensationMap& map, const interp::Rectangl
 std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
   const MapContents& contents = map.contents();
   std::vector<ErrorStep> steps;
-  const auto add = [&steps](ErrorStep::Kind kind, std::string what, const grid::ErrorSummary& error,
+  const auto add = [&steps](ErrorStep::Kind kind, std::string what, const ErrorSummary& error,
                             std::string note) {
     steps.push_back({kind, std::move(what), error.rms_mm, error.maximum_mm, std::move(note)});
   };
@@ -266,9 +259,9 @@ std::vector<ErrorStep> steps_of(const CompensationMap& map, double noise_mm) {
 }  // namespace
 
 report::MapPictures map_pictures(const CompensationMap& map) {
-  const double noise_mm = grid::noise_at_tool_mm(map);
+  const double noise_mm = noise_at_tool_mm(map);
   report::MapPictures pictures;
-  const interp::Rectangle sheet = mapped_sheet(map);
+  const Rectangle sheet = mapped_sheet(map);
   pictures.sheet = {sheet.x_min, sheet.x_max, sheet.y_min, sheet.y_max};
   pictures.before_what = machine_before(map.contents());
   pictures.steps = steps_of(map, noise_mm);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/talk.hpp"
@@ -11,16 +10,13 @@
 namespace chaintrue::cli {
 namespace {
 
-using report::number_column;
-using report::text_column;
-
 /// The expected rms error with this many marks of the map's quality; empty if none can be planned.
 std::optional<double> expected_with(const CompensationMap& map, int points) {
   const grid::MapNoise& noise = map.contents().noise;
   grid::PlanRequest request;
   request.points = points;
   request.noise = {noise.length_mm * noise.factor_found, noise.position_mm * noise.factor_found};
-  const auto plan = grid::plan_measurement(*map.machine(), request);
+  const auto plan = plan_measurement(*map.machine(), request);
   if (!plan) return std::nullopt;
   return plan->map.contents().accuracy.expected_tool.rms_mm;
 }
@@ -29,7 +25,7 @@ std::optional<double> expected_with(const CompensationMap& map, int points) {
 /// one that the map has at its own number of points.
 std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
   constexpr int kNumbers[] = {28, 45, 70, 100, 140, grid::kMostPlanned};
-  const auto now = static_cast<int>(map.contents().points.size());
+  const auto now = as_int(map.contents().points.size());
   const auto here = expected_with(map, std::clamp(now, grid::kFewestPlanned, grid::kMostPlanned));
   if (!here || !(*here > 0.0)) return std::nullopt;
   const double ratio = map.contents().accuracy.expected_tool.rms_mm / *here;
@@ -43,18 +39,17 @@ std::optional<int> marks_for(const CompensationMap& map, double wish_mm) {
 
 }  // namespace
 
-grid::ErrorSummary summary_of(const MapContents& contents, Residual residual) {
+ErrorSummary summary_of(const MapContents& contents, Residual residual) {
   return summary_of_good(contents.points,
-                         [&](const grid::MapPoint& point) { return (point.*residual).norm(); });
+                         [&](const MapPoint& point) { return (point.*residual).norm(); });
 }
 
 bool has_placed_sheet(const MapContents& contents) {
-  return contents.settings.size() > std::size(model::kMachineSettings);
+  return contents.settings.size() > std::size(kMachineSettings);
 }
 
 Residual residual_before(const MapContents& contents) {
-  return has_placed_sheet(contents) ? &grid::MapPoint::sheet_placed_mm
-                                    : &grid::MapPoint::as_stated_mm;
+  return has_placed_sheet(contents) ? &MapPoint::sheet_placed_mm : &MapPoint::as_stated_mm;
 }
 
 std::string_view machine_before(const MapContents& contents) {
@@ -66,8 +61,8 @@ std::vector<SettingRow> settings_rows(const CompensationMap& map) {
   std::vector<SettingRow> rows;
   for (const grid::SettingResult& result : map.contents().settings) {
     SettingRow row{result.setting, result.stated, {}, result.calibrated, result.sigma, result.off};
-    const auto& of_machine = model::kMachineSettings;
-    if (grid::contains(of_machine, result.setting))
+    const auto& of_machine = kMachineSettings;
+    if (contains(of_machine, result.setting))
       row.stated_sigma = stated_sigma(*map.machine(), result.setting);
     rows.push_back(row);
   }
@@ -96,7 +91,7 @@ std::string about_mm(double mm) {
   return fmt::format("{:.{}f}", mm, mm < 9.95 ? 1 : 0);
 }
 
-std::string misses_sentence(const std::optional<grid::ErrorSummary>& today, double expected_mm,
+std::string misses_sentence(const std::optional<ErrorSummary>& today, double expected_mm,
                             const Remedy& remedy) {
   // Both include the map's uncertainty, which limits what it shows about the machine.
   constexpr double kNoMoreThanUncertain = 1.4142;
@@ -124,13 +119,13 @@ std::string fit_sentence(const CompensationMap& map) {
   if (map.machine() == nullptr) return points_sentence(map);
   if (!not_to_cut_with(map).empty())
     return "These readings disagree with each other, so the map is not fit for cutting.";
-  return misses_sentence(grid::error_in_use(map), map.contents().accuracy.expected_tool.rms_mm,
+  return misses_sentence(error_in_use(map), map.contents().accuracy.expected_tool.rms_mm,
                          {"this map", "map"});
 }
 
 std::string points_sentence(const CompensationMap& map) {
   const MapContents& contents = map.contents();
-  const std::size_t bad = grid::count_where(contents.points, [](const auto& p) { return p.bad; });
+  const std::size_t bad = count_where(contents.points, &MapPoint::bad);
   const std::size_t points = contents.points.size();
   const grid::HeldOutError& left_out = contents.accuracy.leave_one_out;
   if (map.machine() == nullptr && left_out.tool.maximum_mm == 0.0) {
@@ -157,8 +152,8 @@ std::string points_sentence(const CompensationMap& map) {
       "At the {} points{} the machine is {:.2f} mm rms off, the map {:.2f} mm; each point, left "
       "out in turn, is predicted to {:.2f} mm rms{}.",
       points, has_placed_sheet(contents) ? ", for the best placement of the sheet," : "",
-      summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
-      summary_of(contents, &grid::MapPoint::mapped_mm).rms_mm, left_out.tool.rms_mm,
+      summary_of(contents, &MapPoint::sheet_placed_mm).rms_mm,
+      summary_of(contents, &MapPoint::mapped_mm).rms_mm, left_out.tool.rms_mm,
       bad == 0 ? "" : fmt::format("; {} were left out as wrong", bad));
 }
 
@@ -181,13 +176,13 @@ std::string wish_sentence(const CompensationMap& map, double wish_mm) {
                     grid::kMostPlanned);
 }
 
-const SettingWords& setting_words(model::Setting setting) {
+const SettingWords& setting_words(Setting setting) {
   static constexpr SettingWords kSettingWords[] = {
       {"left motor, x"},       {"left motor, y"},     {"right motor, x"},
       {"right motor, y"},      {"left chain's zero"}, {"right chain's zero"},
       {"sheet offset, right"}, {"sheet offset, up"},  {"sheet rotation, left", "mrad", 1000.0},
   };  // by Setting
-  return kSettingWords[grid::as_size(setting)];
+  return kSettingWords[as_size(setting)];
 }
 
 Table settings_table(const std::vector<SettingRow>& settings) {
@@ -203,10 +198,10 @@ Table settings_table(const std::vector<SettingRow>& settings) {
   for (const SettingRow& row : settings) {
     const SettingWords& words = setting_words(row.setting);
     const auto value = [&](double of) { return words.factor * of; };
-    table.rows.push_back(report::row_with_flag(
+    table.add(
         {words.words, value(row.stated), row.stated_sigma ? Cell(value(*row.stated_sigma)) : Cell(),
          value(row.calibrated), value(row.sigma), words.unit},
-        row.is_off, "off: by more than the uncertainty in your file"));
+        row.is_off, "off: by more than the uncertainty in your file");
   }
   return table;
 }

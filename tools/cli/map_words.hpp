@@ -19,6 +19,9 @@
 
 namespace chaintrue::cli {
 
+using report::number_column;
+using report::text_column;
+
 // The machine's settings in words, stated and calibrated.
 
 /// "left motor, x" for motor_left_x_mm; a value in `unit` is `factor` times the setting's.
@@ -27,11 +30,11 @@ struct SettingWords {
   std::string_view unit = "mm";
   double factor = 1.0;
 };
-const SettingWords& setting_words(model::Setting setting);
+const SettingWords& setting_words(Setting setting);
 
 /// In the setting's own unit.
 struct SettingRow {
-  model::Setting setting;
+  Setting setting;
   double stated = 0.0;
   std::optional<double> stated_sigma;
   double calibrated = 0.0;
@@ -56,7 +59,7 @@ struct Remedy {
 };
 /// "Your machine misses by about 4.9 mm. With this map it misses by about 0.2 mm." `today` is
 /// empty if the settings in force are unknown.
-std::string misses_sentence(const std::optional<grid::ErrorSummary>& today, double expected_mm,
+std::string misses_sentence(const std::optional<ErrorSummary>& today, double expected_mm,
                             const Remedy& remedy);
 /// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. The error is largest near (1118, 508)."
 std::string worst_sentence(double x_mm, double y_mm, double worst_mm);
@@ -83,7 +86,7 @@ void require_fit_for_cutting(const std::string& why, bool is_forced);
 
 /// Rms and maximum of `size_of` over all that are not bad.
 template <class Readings, class Size>
-grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
+ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
   std::vector<double> sizes;
   for (const auto& reading : readings) {
     if (!reading.bad) sizes.push_back(size_of(reading));
@@ -91,9 +94,9 @@ grid::ErrorSummary summary_of_good(const Readings& readings, Size size_of) {
   return grid::summary_of(sizes);
 }
 
-using Residual = Eigen::Vector2d grid::MapPoint::*;
+using Residual = Eigen::Vector2d MapPoint::*;
 /// Over the good points.
-grid::ErrorSummary summary_of(const MapContents& contents, Residual residual);
+ErrorSummary summary_of(const MapContents& contents, Residual residual);
 /// Whether the sheet was placed by hand, and its placement estimated.
 bool has_placed_sheet(const MapContents& contents);
 /// The reference for the map, and its name: the machine as stated, on the fitted sheet.
@@ -120,7 +123,7 @@ std::string provenance_of(std::string_view source);
 /// The input of the fit; null if not available.
 struct FittedBelts {
   const BeltsFit& fit;
-  const grid::HolesWithBelts* holes = nullptr;
+  const HolesWithBelts* holes = nullptr;
   /// The anchors' file has neither the taped distances nor the machine's message.
   const MeasuredBelts* belts = nullptr;
   grid::PointIndices indices{};  ///< of the points in their file

@@ -9,8 +9,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "grid/containers.hpp"
-#include "grid/files/sources.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -42,9 +40,8 @@ bool is_regular(const fs::path& path) {
 /// One regular file under any name: g.json, ./g.json, a link to it.
 bool is_among(const std::vector<fs::path>& files, const fs::path& path) {
   std::error_code error;
-  return is_regular(path) && grid::any_of(files, [&](const fs::path& other) {
-           return fs::equivalent(path, other, error);
-         });
+  return is_regular(path) &&
+         any_of(files, [&](const fs::path& other) { return fs::equivalent(path, other, error); });
 }
 
 std::string beginning_of(const fs::path& path) {
@@ -54,7 +51,7 @@ std::string beginning_of(const fs::path& path) {
   std::string text;
   char buffer[1 << 16];
   while (text.size() < kMost && (file.read(buffer, sizeof buffer) || file.gcount() > 0))
-    text.append(buffer, grid::as_size(file.gcount()));
+    text.append(buffer, as_size(file.gcount()));
   return text;
 }
 
@@ -88,7 +85,7 @@ class PlaceCheck {
   void look_at(const std::string& path, const Place& place) {
     const fs::path taken = place_of_output(path);
     const bool is_printed = taken == "-";
-    if (!taken.empty() && (grid::contains(taken_, taken) || is_among(taken_, taken)))
+    if (!taken.empty() && (contains(taken_, taken) || is_among(taken_, taken)))
       return add(path, "a name given twice", "a different file for each output",
                  ProblemKind::output_repeated);
     taken_.push_back(taken);
@@ -102,7 +99,7 @@ class PlaceCheck {
     const std::string old = beginning_of(path);
     if (old.empty()) return;
     const Origin origin = files::origin_of(old);
-    if (grid::contains(place.kinds, origin)) return;
+    if (contains(place.kinds, origin)) return;
     add(path,
         origin == Origin::foreign   ? "a file that chaintrue did not make"
         : origin == Origin::changed ? "a file that somebody wrote or changed"
@@ -258,15 +255,14 @@ void write_output(const std::string& path, const std::string& text) {
 
 void write_outputs(const Outputs& outputs) { files::write_whole_files(looked_at(outputs)); }
 
-void take_place(files::PendingFile& pending, const std::string& path, const Outputs& others) {
+void take_place(PendingFile& pending, const std::string& path, const Outputs& others) {
   Outputs all = {{path, ""}};
-  grid::append_all(all, others);
+  append_all(all, others);
   all = looked_at(all);
-  std::vector<std::unique_ptr<files::PendingFile>> alongside;
-  std::vector<files::PendingFile*> together = {&pending};
+  std::vector<std::unique_ptr<PendingFile>> alongside;
+  std::vector<PendingFile*> together = {&pending};
   for (std::size_t i = 1; i < all.size(); ++i) {
-    together.push_back(
-        alongside.emplace_back(std::make_unique<files::PendingFile>(all[i].path)).get());
+    together.push_back(alongside.emplace_back(std::make_unique<PendingFile>(all[i].path)).get());
     together.back()->write(all[i].text);
   }
   take_places(together);

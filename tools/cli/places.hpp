@@ -27,7 +27,6 @@
 #include "grid/files/origin.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/problems.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/provenance.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/report/document.hpp"
@@ -127,15 +126,15 @@ void write_output(const std::string& path, const std::string& text);
 void write_outputs(const Outputs& outputs);
 /// For outputs that are written piece by piece, in addition to whole texts. Empty paths are
 /// skipped.
-void take_place(files::PendingFile& pending, const std::string& path, const Outputs& others);
+void take_place(PendingFile& pending, const std::string& path, const Outputs& others);
 
 // The provenance that a verb writes with its results, and its display in a report.
 /// For the chosen verb: its options, except those that name outputs or only change printing, and
 /// every file read so far.
-grid::Provenance made_by(Verb verb);
+Provenance made_by(Verb verb);
 
 /// "Where this comes from", folded; nothing is added if it is unknown.
-void add_made_by(const std::optional<grid::Provenance>& made_by, std::vector<Section>& sections);
+void add_made_by(const std::optional<Provenance>& made_by, std::vector<Section>& sections);
 
 /// A note on standard error if an input has the same name as a source of this result but another
 /// content.

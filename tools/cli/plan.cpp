@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/planning/check_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "model/chains/chain_changes.hpp"
@@ -25,13 +24,12 @@ std::string draw(const grid::CheckPlan& plan, const CompensationMap& map) {
   std::vector<FollowUpPlace> next;
   for (const MarkPoint& mark : plan.marks)
     next.push_back({.numbers = fmt::format("{}", next.size() + 1), .mark = mark});
-  return draw_follow_up(grid::mapped(map.contents().points, &grid::MapPoint::mark), next,
-                        map.machine()->bed);
+  return draw_follow_up(mapped(map.contents().points, &MapPoint::mark), next, map.machine()->bed);
 }
 
 /// Whether a worn chain would be distinguished from a shifted zero. Three sigmas are one chance in
 /// 400, two one in 20.
-std::string_view detectable_change(const model::PerSide<double>& sigmas) {
+std::string_view detectable_change(const PerSide<double>& sigmas) {
   const double least = std::min(sigmas.left, sigmas.right);
   if (least >= 3.0) return "will certainly show it";
   if (least >= 2.0) return "will probably show it";
@@ -68,9 +66,8 @@ std::string in_words(const grid::MeasurementPlan& plan, const grid::observation:
       noise.length_mm, noise.position_mm, errors.rms_mm, errors.largest_mm, errors.worst_at.x_mm,
       errors.worst_at.y_mm);
   if (errors.unanswered > 0) {
-    text += fmt::format(
-        "On {:.1f} % of the bed the chains cannot hold the sled.\n",
-        100.0 * grid::as_double(errors.unanswered) / grid::as_double(errors.cells_mm.size()));
+    text += fmt::format("On {:.1f} % of the bed the chains cannot hold the sled.\n",
+                        100.0 * as_double(errors.unanswered) / as_double(errors.cells_mm.size()));
   }
   return text;
 }
@@ -112,7 +109,7 @@ int run_check_plan(Verb verb, const PlanOptions& options) {
   if (machine != nullptr) require_margin(problems, request.margin_mm, machine->bed);
   problems.throw_if_any();
   const grid::CheckPlan plan =
-      value_of(grid::plan_check(map, request), "chaintrue plan", kNotSupportedOrOutside);
+      value_of(plan_check(map, request), "chaintrue plan", kNotSupportedOrOutside);
   const auto& [left, right] = plan.expected_sigmas;
   Outputs outputs =
       sheet_outputs({plan.marks, sheet_of(options.measure, machine)}, *machine,
@@ -145,14 +142,14 @@ int run_marks_plan(const PlanOptions& options, const Machine& machine) {
   problems.require("--position-noise-mm", noise.position_mm, 0.001, 50.0);
   problems.throw_if_any();
   const grid::MeasurementPlan plan =
-      value_of(grid::plan_measurement(machine, request), "chaintrue plan", kNotSupportedOrOutside);
+      value_of(plan_measurement(machine, request), "chaintrue plan", kNotSupportedOrOutside);
   // A small bed has room for fewer marks than were asked for.
-  require_second_visits(static_cast<int>(plan.marks.size()));
+  require_second_visits(as_int(plan.marks.size()));
   problems.throw_if_any();
   const ExpectedErrors errors = expected_errors(plan.map, machine.bed);
   Outputs outputs = sheet_outputs(
       {plan.marks, sheet_of(options.measure, &machine),
-       grid::with_second_visits(plan.marks.size(), grid::as_size(options.second_visits))},
+       grid::with_second_visits(plan.marks.size(), as_size(options.second_visits))},
       machine, {noise.length_mm, noise.position_mm, StatedNoise{}.dof}, options.outputs,
       fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}", errors.rms_mm,
                   errors.largest_mm));

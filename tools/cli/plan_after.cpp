@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/plane_vectors.hpp"
@@ -19,9 +18,6 @@ namespace {
 
 // chaintrue plan BELTS --after: what a four-belt router should measure next.
 
-using diagnosis::BeltPlacePicture;
-using diagnosis::MeasurementKind;
-
 /// Whether the diagnosis used these places: in the same order, with lengths that anchors and
 /// causes explain.
 bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
@@ -32,8 +28,8 @@ bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
       found.belts->places.begin(), found.belts->places.end(), belts.points.begin(),
       belts.points.end(), [&](const BeltPlacePicture& place, const grid::BeltPoint& point) {
         if (place.order != point.order) return false;
-        const auto lengths = model::lengths_at(found.belts->machine, place.at);
-        return lengths && grid::all_of(model::kBelts, [&](model::Belt belt) {
+        const auto lengths = lengths_at(found.belts->machine, place.at);
+        return lengths && all_of(kBelts, [&](Belt belt) {
                  return place.bad[belt] ||
                         std::abs((*lengths)[belt] - point.lengths_mm[belt]) < kSamePlaceMm;
                });
@@ -51,8 +47,8 @@ std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
         next.mark->x_mm + 0.0, next.mark->y_mm + 0.0);
     if (visit) own += fmt::format(", \"order\": {}", (*visit)++);
     if (!next.pulled.empty()) {
-      std::vector<std::string> names;
-      for (const model::Belt belt : next.pulled) names.push_back(fmt::format("\"{}\"", name(belt)));
+      Words names;
+      for (const Belt belt : next.pulled) names.push_back(fmt::format("\"{}\"", name(belt)));
       own += fmt::format(", \"pulled\": [{}]", fmt::join(names, ", "));
     }
     lines += own + "},\n";
@@ -82,7 +78,7 @@ std::string distances_of(const Diagnosis& found) {
 
 std::string drawing_of(const Diagnosis& found) {
   const BeltMachine& machine = found.belts->machine;
-  const model::FramePoint centre = model::centre_of(machine);
+  const FramePoint centre = centre_of(machine);
   std::vector<MarkPoint> measured;
   for (const BeltPlacePicture& place : found.belts->places)
     measured.push_back({place.at.x_mm - centre.x_mm, place.at.y_mm - centre.y_mm});
@@ -94,7 +90,7 @@ std::string drawing_of(const Diagnosis& found) {
 
 /// `text` is that of the belts' file. \throws InputError. Returns an exit code.
 int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
-  const files::ReadBelts read = load_belts(file, "a diagnosis");
+  const ReadBelts read = load_belts(file, "a diagnosis");
   const InputFile after = open_input(options.after);
   const Diagnosis found = load_diagnosis(after);
   if (!is_of(found, read.belts)) {
@@ -113,7 +109,7 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
 
 /// The files of a diagnosis, and for each whether lines for it are JSON.
 struct Sources {
-  grid::Measured measured;
+  Measured measured;
   std::vector<bool> are_json;
 };
 
@@ -122,13 +118,13 @@ void read(const InputFile& file, const std::optional<Machine>& machine, bool few
           Sources& sources) {
   require_kind(file, {FileKind::grid, FileKind::holes});
   const files::MeasuredOptions options{.machine = machine, .few = few};
-  grid::MeasuredFile read{file.name, {}};
+  MeasuredFile read{file.name, {}};
   if (file.kind == FileKind::holes)
     read.measured = files::parse_holes(file.text, file.name, options).holes;
   else
     read.measured = files::parse_grid(file.text, file.name, options).grid;
   sources.measured.add(std::move(read));
-  sources.are_json.push_back(files::is_json(file.text));
+  sources.are_json.push_back(is_json(file.text));
 }
 
 Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
@@ -140,16 +136,16 @@ Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
   return sources;
 }
 
-std::vector<MarkPoint> marks_of(const grid::Measured& measured) {
+std::vector<MarkPoint> marks_of(const Measured& measured) {
   std::vector<MarkPoint> marks;
   for (const MeasuredGrid* own : measured.grids()) {
-    for (const grid::MeasuredPoint& point : own->points) marks.push_back(point.mark);
+    append_all(marks, mapped(own->points, &grid::MeasuredPoint::mark));
   }
   return marks;
 }
 
 /// Whether the diagnosis used the points of these grids. A CSV may round them.
-bool has_points_of(const Diagnosis& found, const grid::Measured& measured) {
+bool has_points_of(const Diagnosis& found, const Measured& measured) {
   constexpr double kSamePlaceMm = 1e-3;
   const std::vector<MarkPoint> marks = marks_of(measured);
   return std::equal(found.points.begin(), found.points.end(), marks.begin(), marks.end(),
@@ -160,7 +156,7 @@ bool has_points_of(const Diagnosis& found, const grid::Measured& measured) {
 
 /// Empty if the diagnosis used exactly these files.
 std::string made_from_others(const PlanAfterOptions& options, const Diagnosis& found,
-                             const grid::Measured& measured) {
+                             const Measured& measured) {
   const bool points = has_points_of(found, measured);
   const bool distances = is_diagnosis_of(found, measured.holes());
   if (points && distances) return {};
@@ -172,17 +168,17 @@ std::string made_from_others(const PlanAfterOptions& options, const Diagnosis& f
   }
   return fmt::format("{} was made from other {} than those in {}: diagnose these first.\n",
                      options.after, points || !has_grids ? "holes" : "points",
-                     fmt::join(grid::mapped(measured.files(), &grid::MeasuredFile::name), " and "));
+                     fmt::join(mapped(measured.files(), &MeasuredFile::name), " and "));
 }
 
 /// The lines for each file; readings of the machine go into the first that has any.
-std::string lines_of(const Diagnosis& found, const grid::Measured& measured,
+std::string lines_of(const Diagnosis& found, const Measured& measured,
                      const std::vector<bool>& are_json) {
-  const std::vector<grid::MeasuredFile>& files = measured.files();
+  const std::vector<MeasuredFile>& files = measured.files();
   std::string text;
   std::size_t grids = 0, sets = 0;
   bool takes_readings = true;
-  for (std::size_t k = 0; k < files.size(); ++k) {
+  for (const auto k : each_index(files)) {
     std::string lines;
     if (files[k].holes() != nullptr) {
       lines = distance_lines(found, measured.holes(), sets++, are_json[k]);
@@ -196,19 +192,17 @@ std::string lines_of(const Diagnosis& found, const grid::Measured& measured,
   return text;
 }
 
-std::string drawing_of(const Diagnosis& found, const grid::Measured& measured) {
+std::string drawing_of(const Diagnosis& found, const Measured& measured) {
   std::vector<MarkPoint> marks = marks_of(measured);
   for (const MeasuredHoles* set : measured.holes()) {
-    for (const grid::Hole& hole : set->holes)
-      marks.push_back(model::identity_placement(hole.commanded));
+    for (const Hole& hole : set->holes) marks.push_back(identity_placement(hole.commanded));
   }
   return draw_follow_up(marks, follow_up_places(found), found.extended_machine.bed);
 }
 
 }  // namespace
 
-std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                             const grid::Measured& measured) {
+std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found, const Measured& measured) {
   if (!has_points_of(found, measured) || !is_diagnosis_of(found, measured.holes()))
     return std::nullopt;
   const auto lines = [&](bool is_json) {
@@ -237,8 +231,8 @@ int plan_after(const PlanAfterOptions& options, const InputFile& file) {
   write_outputs({{options.drawing, drawing_of(found, sources.measured)},
                  {options.output, lines_of(found, sources.measured, sources.are_json)}});
   say_lines(follow_up_list(found));
-  const std::vector<grid::MeasuredFile>& files = sources.measured.files();
-  if (!grid::contains(sources.are_json, true) && proposes(found, MeasurementKind::reading)) {
+  const std::vector<MeasuredFile>& files = sources.measured.files();
+  if (!contains(sources.are_json, true) && proposes(found, MeasurementKind::reading)) {
     say("A CSV file cannot store readings: use a {} (JSON), which has a list "
         "for them.",
         sources.measured.grids().empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");

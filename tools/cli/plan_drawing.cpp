@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/statistics.hpp"
 #include "tools/cli/svg.hpp"
 #include "tools/report/hole_labels.hpp"
@@ -82,14 +81,14 @@ void draw_errors(Svg& svg, const BedView& view, const ExpectedErrors& errors,
 }
 
 void draw_walk(Svg& svg, const BedView& view, const std::vector<MarkPoint>& marks) {
-  std::vector<std::string> corners;
+  Words corners;
   for (const MarkPoint& mark : marks)
     corners.push_back(fmt::format("{:.2f},{:.2f}", view.x(mark.x_mm), view.y(mark.y_mm)));
   svg.add(
       "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1\" stroke-opacity=\"0.6\" "
       "points=\"{}\"/>\n",
       report::kAfterColor, fmt::join(corners, " "));
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (const auto i : each_index(marks)) {
     svg.circle(view.x(marks[i].x_mm), view.y(marks[i].y_mm), 4.0, filled(report::kAfterColor));
     label(svg, view, marks[i], 7.0, 15.0, -6.0, fmt::format("{}", i + 1));
   }
@@ -113,13 +112,13 @@ ExpectedErrors expected_errors(const CompensationMap& map, const Bed& bed) {
   ExpectedErrors errors;
   errors.columns = 60;
   errors.rows = 30;
-  errors.cells_mm = grid::expected_error_mm(map, bed, errors.columns, errors.rows);
+  errors.cells_mm = expected_error_mm(map, bed, errors.columns, errors.rows);
   const auto places =
-      grid::raster(grid::area_of(bed), errors.columns, errors.rows, grid::RasterOf::cells);
-  const auto worst = grid::max_element(errors.cells_mm);
+      raster(grid::area_of(bed), errors.columns, errors.rows, grid::RasterOf::cells);
+  const auto worst = max_element(errors.cells_mm);
   if (*worst > 0.0) {
     errors.largest_mm = *worst;
-    errors.worst_at = places[grid::as_size(worst - errors.cells_mm.begin())];
+    errors.worst_at = places[as_size(worst - errors.cells_mm.begin())];
   }
   std::vector<double> answered_mm = errors.cells_mm;
   errors.unanswered = std::erase_if(answered_mm, [](double error) { return error < 0.0; });
@@ -175,16 +174,15 @@ namespace {
 constexpr double kSheetTop = 60.0, kSheetBelow = 50.0;
 
 /// Each with its label, and a line from one to the other.
-void draw_holes(const std::vector<grid::Hole>& holes, const BedView& view, Svg& svg) {
+void draw_holes(const std::vector<Hole>& holes, const BedView& view, Svg& svg) {
   std::vector<report::DrawnHole> drawn;
-  for (const grid::Hole& hole : holes) {
+  for (const Hole& hole : holes) {
     drawn.push_back(
         {view.x(hole.commanded.x_mm), view.y(hole.commanded.y_mm), hole.name,
          fmt::format("({:.0f}, {:.0f})", hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0)});
   }
-  const std::vector<report::HoleLabel> labels =
-      report::place_labels(drawn, kLeft, kLeft + kBedWide);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
+  const std::vector<report::HoleLabel> labels = place_labels(drawn, kLeft, kLeft + kBedWide);
+  for (const auto i : each_index(drawn)) {
     const report::DrawnHole& hole = drawn[i];
     const report::HoleLabel& label = labels[i];
     svg.add(
@@ -207,14 +205,13 @@ BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed) {
                            {x_mm, from.y_mm},
                            {from.x_mm, y_mm},
                            {from.x_mm, -y_mm}};  // by SheetEdge
-  return feet[grid::as_size(edge)];
+  return feet[as_size(edge)];
 }
 
-std::string draw_holes_plan(const grid::HolesPlan& plan) {
+std::string draw_holes_plan(const HolesPlan& plan) {
   const Bed& bed = plan.set.machine->bed;
   const BedView view{grid::area_of(bed), {kLeft, kSheetTop}, kBedWide};
-  const bool has_edges = grid::any_of(
-      plan.set.distances, [](const auto& distance) { return distance.edge.has_value(); });
+  const bool has_edges = any_of(plan.set.distances, &grid::HoleDistance::edge);
   const double high = kSheetTop + view.high() + kSheetBelow;
   const std::string title =
       fmt::format("{} holes, {}: {:.2f} mm expected at the tool (rms, one sigma)",

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 #include <cmath>
-#include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "tools/cli/sheet.hpp"
@@ -53,10 +51,6 @@ void add_tape_options(Verb verb, HolesPlanRequest& request) {
 
 namespace {
 
-using report::number_column;
-using report::signed_column;
-using report::text_column;
-
 std::string effect_words(const grid::DetectableEffect& effect) {
   return effect.side.empty() ? effect.effect : fmt::format("{} ({})", effect.effect, effect.side);
 }
@@ -65,7 +59,7 @@ std::string effect_words(const grid::DetectableEffect& effect) {
 constexpr double kFaintSigmas = 3.0;
 constexpr double kDoubtfulSigmas = 1.0;
 
-std::string listed(const std::vector<std::string>& words) {
+std::string listed(const Words& words) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -76,16 +70,15 @@ Section distances_section(const MeasuredHoles& set, const grid::FittedDistances&
   Table table{.columns = {text_column("Distance", 22),
                           number_column("measured", 10, 1),
                           number_column("commanded", 11, 1),
-                          signed_column("left out", 11),
-                          signed_column("sigmas", 10, 1),
+                          report::signed_column("left out", 11),
+                          report::signed_column("sigmas", 10, 1),
                           {.gap = 2}},
               .is_headed = true};
-  for (std::size_t k = 0; k < fit.distances.size(); ++k) {
+  for (const auto k : each_index(fit.distances)) {
     const grid::FittedDistance& distance = fit.distances[k];
-    table.rows.push_back(
-        report::row_with_flag({words_of(set, set.distances[k]), distance.measured_mm,
-                               distance.commanded_mm, distance.left_out_mm, distance.sigmas()},
-                              distance.rejected, "left out"));
+    table.add({words_of(set, set.distances[k]), distance.measured_mm, distance.commanded_mm,
+               distance.left_out_mm, distance.sigmas()},
+              distance.rejected, "left out");
   }
   Section section{"Distance by distance", {}, true, Detail::verbose, /*is_titled=*/false};
   if (!file.empty()) section.say("{}:", file);
@@ -103,16 +96,15 @@ void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& 
 }
 
 std::string distances_in_number(const MeasuredHoles& set) {
-  const std::size_t edges = grid::count_where(
-      set.distances, [](const auto& distance) { return distance.edge.has_value(); });
+  const std::size_t edges = count_where(set.distances, &grid::HoleDistance::edge);
   const std::size_t all = set.distances.size();
   return edges == 0 ? fmt::format("{} distances", all)
                     : fmt::format("{} distances and {} to the sheet's edges", all - edges, edges);
 }
 
-std::string workshop_list(const grid::HolesPlan& plan) {
+std::string workshop_list(const HolesPlan& plan) {
   std::string text = "hole,x_mm,y_mm\n";
-  for (const grid::Hole& hole : plan.set.holes) {
+  for (const Hole& hole : plan.set.holes) {
     text += fmt::format("{},{:.0f},{:.0f}\n", hole.name, hole.commanded.x_mm + 0.0,
                         hole.commanded.y_mm + 0.0);
   }
@@ -131,7 +123,7 @@ std::string workshop_list(const grid::HolesPlan& plan) {
 namespace {
 
 /// What the plan's set will determine, and what it cannot distinguish.
-std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& request) {
+std::string plan_in_words(const HolesPlan& plan, const HolesPlanRequest& request) {
   std::string text = fmt::format(
       "{} holes, {}. With errors of {:g} mm for the tape and {:g} mm for a hole (one sigma) the "
       "expected error of the tool is {:.2f} mm rms over the bed, {}; without measurement {:.2f} "
@@ -140,7 +132,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
       request.hole_sigma_mm, plan.expected_rms_mm,
       request.edges ? "including the sheet's placement" : "for the best placement of the sheet",
       plan.expected_before_mm, request.edges ? " for the best placement of the sheet" : "");
-  std::vector<std::string> unreported;
+  Words unreported;
   constexpr double kHardlyBetter = 0.7;
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
     text += fmt::format("  {:<30}{:>12.3f}{:>10.3f} {}\n", known.name, known.before, known.after,
@@ -149,11 +141,11 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
   }
   text += fmt::format("It does not determine: {}.{}\n", listed(unreported),
                       request.edges ? "" : " To locate the sheet, measure to its edges: --edges.");
-  std::vector<std::string> clear;
-  std::vector<std::string> doubtful;
-  std::vector<std::string> unseen;
-  std::vector<std::string> equal;
-  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+  Words clear;
+  Words doubtful;
+  Words unseen;
+  Words equal;
+  for (const auto i : each_index(plan.effects)) {
     const grid::DetectableEffect& effect = plan.effects[i];
     (effect.sigmas >= kFaintSigmas      ? clear
      : effect.sigmas >= kDoubtfulSigmas ? doubtful
@@ -177,17 +169,16 @@ std::string plan_in_words(const grid::HolesPlan& plan, const HolesPlanRequest& r
 int plan_the_holes(HolesPlanRequest request, const Machine& machine, const PlanOutputs& wanted) {
   check(request, machine.bed);
   request.progress = shown_progress();
-  const grid::HolesPlan plan =
-      value_of(grid::plan_holes(machine, request), "chaintrue plan", kNotSupportedOrOutside);
+  const HolesPlan plan =
+      value_of(plan_holes(machine, request), "chaintrue plan", kNotSupportedOrOutside);
   Outputs outputs = {
       {wanted.drawing, draw_holes_plan(plan)},
       {wanted.page, holes_page(plan, wanted.list)},
       {wanted.gcode, holes_gcode(plan, wanted.drill)},
       {wanted.list, is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan.set)
                                                              : workshop_list(plan)}};
-  const auto holes = grid::mapped(plan.set.holes, [](const grid::Hole& hole) {
-    return model::identity_placement(hole.commanded);
-  });
+  const auto holes =
+      mapped(plan.set.holes, [](const Hole& hole) { return identity_placement(hole.commanded); });
   add_answer(holes, {}, fmt::format("\"expected_rms_mm\": {}", plan.expected_rms_mm), wanted,
              outputs);
   write_outputs(outputs);

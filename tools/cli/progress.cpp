@@ -90,7 +90,7 @@ ProgressLine::ProgressLine(const std::string& verb) {
 ProgressLine::~ProgressLine() { end_progress(); }
 
 grid::Progress shown_progress() {
-  return [](const grid::WorkStep& step) {
+  return [](const WorkStep& step) {
     state().note(step);
     show_in_page();
   };
@@ -122,7 +122,7 @@ void ProgressState::begin(std::string verb) {
   whole_began_s_ = clock_();
 }
 
-void ProgressState::note(const grid::WorkStep& step) {
+void ProgressState::note(const WorkStep& step) {
   const std::scoped_lock lock(mutex_);
   if (step.number != step_.number || step.what != step_.what || step.pass != step_.pass)
     step_began_s_ = clock_();

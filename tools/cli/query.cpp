@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/files/points_file.hpp"
 #include "tools/cli/fields.hpp"
 #include "tools/cli/verb.hpp"
@@ -30,7 +29,7 @@ std::vector<BedPoint> points_asked(const QueryCommand& command) {
   std::vector<BedPoint> points;
   if (!command.points.empty()) {
     for (const MarkPoint& point : files::read_points(command.points))
-      points.push_back(model::identity_placement(point));
+      points.push_back(identity_placement(point));
     return points;
   }
   for (std::size_t i = 0; i + 1 < command.coordinates.size(); i += 2) {
@@ -42,12 +41,10 @@ std::vector<BedPoint> points_asked(const QueryCommand& command) {
 /// Words for one of the first two lengths: "left", "top left".
 std::string_view words_of(std::string_view length) {
   const auto belt = model::belt_of(length);
-  return belt ? model::words(*belt) : length;
+  return belt ? words(*belt) : length;
 }
 
-Field status_field(grid::MapStatus status) {
-  return {"status", std::string(grid::name(status)), true};
-}
+Field status_field(grid::MapStatus status) { return {"status", std::string(name(status)), true}; }
 
 /// The fields of a point; without an answer, in a table they are empty, and JSON has none.
 Fields fields_of(const QueryCommand& command, const grid::LengthMap& map, const BedPoint& point,
@@ -56,13 +53,13 @@ Fields fields_of(const QueryCommand& command, const grid::LengthMap& map, const 
   const int digits = names.size() == 2 ? 6 : 4;
   Fields fields = {{"x_mm", fmt::format("{}", point.x_mm)},
                    {"y_mm", fmt::format("{}", point.y_mm)}};
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (const auto i : each_index(names)) {
     fields.push_back(
         {fmt::format("{}_mm", names[i]),
          answer ? fmt::format("{:.{}f}", answer->lengths_mm[grid::as_index(i)], digits) : ""});
   }
-  for (const model::Side side : model::kSides) {
-    fields.push_back({fmt::format("{}_sigma_mm", names[side == model::Side::left ? 0 : 1]),
+  for (const Side side : kSides) {
+    fields.push_back({fmt::format("{}_sigma_mm", names[side == Side::left ? 0 : 1]),
                       answer ? fmt::format("{:.4f}", answer->sigma[side]) : ""});
   }
   // A table keeps the columns that its readers know.
@@ -77,7 +74,7 @@ int answer_inverse(const Target& target, const QueryCommand& command) {
   const grid::LengthMap& map = *target.lengths;
   const auto tool = map.tool({command.inverse[0], command.inverse[1]});
   if (!tool) {
-    const bool of_belts = target.as<files::FittedAnchors>() != nullptr;
+    const bool of_belts = target.as<FittedAnchors>() != nullptr;
     const auto names = map.length_names();
     say("{} {} mm, {} {} mm: {}", words_of(names[0]), command.inverse[0], words_of(names[1]),
         command.inverse[1],
@@ -94,12 +91,12 @@ int answer_inverse(const Target& target, const QueryCommand& command) {
 }
 
 int answer_points(const Target& target, const QueryCommand& command) {
-  const bool of_belts = target.as<files::FittedAnchors>() != nullptr;
+  const bool of_belts = target.as<FittedAnchors>() != nullptr;
   std::string text, outside;
   const std::vector<BedPoint> points = points_asked(command);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : each_index(points)) {
     const BedPoint& point = points[i];
-    progress_is(grid::as_double(i), grid::as_double(points.size()));
+    progress_is(as_double(i), as_double(points.size()));
     const auto answer = target.lengths->query(point);
     const Fields fields = fields_of(command, *target.lengths, point, answer);
     if (command.json) {

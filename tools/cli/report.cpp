@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
-#include "grid/files/sources.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/verb.hpp"
@@ -27,11 +25,11 @@ constexpr double k95PerCent = 1.7308;
 
 Section measured_section(const CompensationMap& map) {
   const MapContents& contents = map.contents();
-  Table table{.columns = {{"what"}, {"how much, how well"}}, .rows = {}, .caption = {}};
+  Table table{.columns = {{"what"}, {"how much, how well"}}};
   const auto row = [&table](std::string what, std::string value) {
-    table.rows.push_back({{std::move(what), std::move(value)}});
+    table.add({std::move(what), std::move(value)});
   };
-  const std::size_t bad = grid::count_where(contents.points, [](const auto& p) { return p.bad; });
+  const std::size_t bad = count_where(contents.points, &MapPoint::bad);
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     row("holes and a tape",
@@ -86,7 +84,7 @@ Section remaining_section(const MapContents& contents) {
 /// `source` is the map's file, for the footer.
 Document certificate(const CompensationMap& map, std::string_view source) {
   const MapContents& contents = map.contents();
-  const grid::ErrorSummary& expected = contents.accuracy.expected_tool;
+  const ErrorSummary& expected = contents.accuracy.expected_tool;
   Document page;
   page.title = "Certificate: " + (contents.name.empty() ? std::string("map") : contents.name);
   page.subtitle = map.machine() != nullptr ? map.machine()->name : "no machine model";
@@ -106,7 +104,7 @@ Document certificate(const CompensationMap& map, std::string_view source) {
   page.not_proved = {
       "These figures hold for the machine as measured, until a motor, a chain or the sheet is "
       "moved."};
-  Chart chart = report::error_map_chart(map_pictures(map));
+  Chart chart = error_map_chart(map_pictures(map));
   chart.caption.clear();  // it is in the legend
   page.sections = {{"Where to expect which error", {std::move(chart)}},
                    measured_section(map),
@@ -147,7 +145,7 @@ Reported reported_diagnosis(const InputFile& file, std::string_view source) {
 }
 
 Reported reported_anchors(const InputFile& file, std::string_view source) {
-  const files::FittedAnchors found = load_anchors(file);
+  const FittedAnchors found = load_anchors(file);
   return {anchors_document({found.fit, holes_of(found)}, found.name, source),
           {"export", "maslow4", file.path}};
 }
@@ -177,7 +175,7 @@ int run_report(Verb verb, const ReportCommand& command) {
     std::string& subtitle = made.page.subtitle;
     subtitle += fmt::format("{}{}", subtitle.empty() ? "" : ", ", date);
   }
-  write_output(command.output, report::render_html(made.page));
+  write_output(command.output, render_html(made.page));
   if (command.output == "-") return kDone;
   say("The report is {}: open it in any browser.", command.output);
   say_next(made.next);

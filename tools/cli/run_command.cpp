@@ -7,9 +7,7 @@
 
 #include <sstream>
 
-#include "grid/containers.hpp"
 #include "grid/files/problems.hpp"
-#include "grid/files/sources.hpp"
 #include "grid/printing.hpp"
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/verb.hpp"
@@ -34,10 +32,10 @@ std::string did_you_mean(CLI::App& app, const Words& words) {
   std::size_t at = 0;
   const auto is_verb = [&] { return at < words.size() && !words[at].starts_with('-'); };
   for (; is_verb(); ++at) {
-    if (!grid::contains(names_of(parts_of(*verb).verbs), words[at])) break;
+    if (!contains(names_of(parts_of(*verb).verbs), words[at])) break;
     verb = verb->get_subcommand(words[at]);
   }
-  const std::vector<std::string> verbs = names_of(parts_of(*verb).verbs);
+  const Words verbs = names_of(parts_of(*verb).verbs);
   const std::string verb_name = verb == &app ? "chaintrue" : "chaintrue " + verb->get_name();
   if (!verbs.empty() && is_verb()) {
     const std::string near = files::nearest(words[at], verbs);
@@ -46,12 +44,12 @@ std::string did_you_mean(CLI::App& app, const Words& words) {
     return fmt::format("There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name,
                        near);
   }
-  std::vector<std::string> known = long_names(parts_of(*verb).options);
-  grid::append_all(known, long_names(parts_of(app).options));
+  Words known = long_names(parts_of(*verb).options);
+  append_all(known, long_names(parts_of(app).options));
   for (; at < words.size(); ++at) {
     const std::string option = words[at].substr(0, words[at].find('='));
     if (!option.starts_with("--") || option == "--") continue;
-    if (grid::contains(known, option)) continue;
+    if (contains(known, option)) continue;
     const std::string near = files::nearest(option, known);
     if (near.empty()) {
       return fmt::format("{} has no option {}. {} --help lists them all.\n", verb_name, option,

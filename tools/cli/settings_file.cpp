@@ -6,14 +6,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "grid/containers.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/sha256.hpp"
-#include "grid/files/sources.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/map/map_check.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
@@ -53,9 +50,9 @@ ControllerKind kind_with(const Machine& stated, const SettingsFile& now,
 }
 
 void refuse_other_chain(const std::vector<files::SettingChange>& changes, const std::string& file) {
-  const auto of_chain = files::of_the_chain(changes);
+  const auto of_chain = of_the_chain(changes);
   if (of_chain.empty()) return;
-  refuse(file, files::in_words(of_chain),
+  refuse(file, in_words(of_chain),
          "the values that the map was measured with, because they define the meaning of a chain "
          "length: restore them, or measure and fit again");
 }
@@ -69,12 +66,12 @@ std::string after_name(const std::string& map) {
 }
 
 SettingsFile read_settings_file(const std::string& path) {
-  return parse_settings_file(path, files::read_whole_file(path));
+  return parse_settings_file(path, read_whole_file(path));
 }
 
 SettingsFile parse_settings_file(const std::string& path, const std::string& text) {
-  const std::string file = files::name_in_messages(path);
-  const bool json = files::is_json(text) && text.find('{') < text.find('[');
+  const std::string file = name_in_messages(path);
+  const bool json = is_json(text) && text.find('{') < text.find('[');
   if (json && files::is_webcontrol(text, file)) return {file, files::parse_webcontrol(text, file)};
   if (json) return {file, files::parse_machine(text, file), true};
   const std::string ending = std::filesystem::path(path).extension().string();
@@ -104,21 +101,21 @@ Machine with_settings(const Machine& stated, const SettingsFile& now,
   Machine before = stated;
   before.controller.kind = machine.controller.kind;
   const auto changes =
-      files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
+      changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
   refuse_other_chain(changes, now.name);
   if (changes.empty()) {
     say("{} has the map's settings.", now.name);
   } else {
     say("The settings in {} differ from those that the map was measured with ({}); the new ones "
         "are used.",
-        now.name, files::in_words(changes));
+        now.name, in_words(changes));
   }
   return machine;
 }
 
 CompensationMap with_settings_of(const std::string& settings, const std::string& map_name,
-                                 const CompensationMap& map, grid::Measured& measured) {
-  const auto stated = grid::stated_machine(map);
+                                 const CompensationMap& map, Measured& measured) {
+  const auto stated = stated_machine(map);
   if (!stated) {
     refuse(map_name, "a map without a machine", "no --settings: its points are chain lengths");
   }
@@ -128,42 +125,41 @@ CompensationMap with_settings_of(const std::string& settings, const std::string&
     refuse(file.name, "anchors of a wall plotter",
            "the new points with the machine that executed the commands: give it with --machine");
   }
-  measured = grid::commanded_with(measured, now);
-  return grid::map_for_settings(map, now, "");
+  measured = commanded_with(measured, now);
+  return map_for_settings(map, now, "");
 }
 
 bool was_made_from(const std::string& made, const std::string& from) {
-  const auto made_by = files::made_by_of(files::read_whole_file(made), made);
-  const std::string hash = files::Sha256().add(files::read_whole_file(from)).text();
-  return made_by && grid::any_of(made_by->inputs, grid::having(&grid::SourceFile::sha256, hash));
+  const auto made_by = files::made_by_of(read_whole_file(made), made);
+  const std::string hash = files::Sha256().add(read_whole_file(from)).text();
+  return made_by && any_of(made_by->inputs, having(&SourceFile::sha256, hash));
 }
 
-std::optional<model::ControllerSettings> settings_before(const std::string& map) {
+std::optional<ControllerSettings> settings_before(const std::string& map) {
   namespace fs = std::filesystem;
   if (map == "-") return std::nullopt;
-  const auto made_by = files::made_by_of(files::read_whole_file(map), map);
+  const auto made_by = files::made_by_of(read_whole_file(map), map);
   if (!made_by || made_by->verb != "export groundcontrol" || made_by->inputs.empty())
     return std::nullopt;
   const std::string from = (fs::path(map).parent_path() / made_by->inputs.front().name).string();
   if (!fs::is_regular_file(from) || !was_made_from(map, from)) return std::nullopt;
-  const CompensationMap exported = files::parse_map(files::read_whole_file(from), from);
+  const CompensationMap exported = files::parse_map(read_whole_file(from), from);
   if (exported.machine() == nullptr) return std::nullopt;
   return exported.machine()->controller.settings;
 }
 
-std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
-                                               const grid::Measured& measured,
-                                               const grid::Check& found,
-                                               std::optional<model::ControllerSettings> before) {
+std::optional<Check> with_typed_settings(const CompensationMap& map, const Measured& measured,
+                                         const Check& found,
+                                         std::optional<ControllerSettings> before) {
   if (found.is_valid_as_it_is() || map.machine() == nullptr) return std::nullopt;
-  const auto differ_from_map = [&](const model::ControllerSettings& settings) {
+  const auto differ_from_map = [&](const ControllerSettings& settings) {
     Machine in_force = *map.machine();
     in_force.controller.settings = settings;
-    return files::changed_settings(files::settings_in_force(*map.machine()),
-                                   files::settings_in_force(in_force));
+    return changed_settings(files::settings_in_force(*map.machine()),
+                            files::settings_in_force(in_force));
   };
   if (before && differ_from_map(*before).empty()) before.reset();
-  std::optional<model::ControllerSettings> others = before;
+  std::optional<ControllerSettings> others = before;
   if (!before) {
     const auto typed = grid::settings_to_type(map);
     if (!typed || !typed->worth_typing) return std::nullopt;
@@ -171,7 +167,7 @@ std::optional<grid::Check> with_typed_settings(const CompensationMap& map,
   }
   auto changed = grid::changed_settings(map, measured, *others, found);
   if (!changed) return std::nullopt;
-  const std::string differ = files::in_words(differ_from_map(changed->in_force));
+  const std::string differ = in_words(differ_from_map(changed->in_force));
   constexpr std::string_view kSentences[][3] = {
       {"Only some of the numbers from export groundcontrol have been typed in", "these",
        "Type in the others too, and use the map from export groundcontrol --map-after."},

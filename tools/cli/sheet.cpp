@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "grid/containers.hpp"
 #include "grid/files/grid_file.hpp"
 #include "tools/cli/talk.hpp"
 
@@ -96,7 +95,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
       places.push_back({visit.again == 0
                             ? fmt::format("mark {}", visit.number)
                             : fmt::format("mark {}: next to mark {}", visit.number, visit.again),
-                        model::identity_placement(visit.mark)});
+                        identity_placement(visit.mark)});
     }
     return drill_gcode(fmt::format("{} marks", places.size()), places, options);
   }
@@ -111,8 +110,8 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   return text + "G0 X0 Y0\nM2\n";
 }
 
-std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options) {
-  const auto places = grid::mapped(plan.set.holes, [](const grid::Hole& hole) {
+std::string holes_gcode(const HolesPlan& plan, const DrillOptions& options) {
+  const auto places = mapped(plan.set.holes, [](const Hole& hole) {
     return DrillPlace{"hole " + hole.name, hole.commanded};
   });
   return drill_gcode(fmt::format("{} holes", places.size()), places, options);
@@ -133,8 +132,8 @@ std::string sheet_json(const Sheet& sheet, const Machine& machine, const StatedN
   for (const SheetVisit& visit : visits_of(sheet)) {
     grid::MeasuredPoint point;
     point.mark = visit.mark;
-    if (sheet.of == SheetOf::places) point.commanded = model::identity_placement(visit.mark);
-    point.order = static_cast<int>(visit.number);
+    if (sheet.of == SheetOf::places) point.commanded = identity_placement(visit.mark);
+    point.order = as_int(visit.number);
     grid.points.push_back(point);
   }
   return files::write_grid_sheet(grid);
@@ -156,7 +155,7 @@ Outputs sheet_outputs(const Sheet& sheet, const Machine& machine, const StatedNo
 void add_answer(const std::vector<MarkPoint>& places, const std::vector<std::size_t>& visits,
                 const std::string& expected, const PlanOutputs& outputs, Outputs& written) {
   if (!outputs.json || outputs.list == "-") return;
-  const auto pairs = grid::mapped(places, [](const MarkPoint& place) {
+  const auto pairs = mapped(places, [](const MarkPoint& place) {
     return fmt::format("[{}, {}]", place.x_mm, place.y_mm);
   });
   std::vector<std::size_t> order = visits;

@@ -80,7 +80,7 @@ struct DrillOptions {
 /// absolute.
 std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
 /// Drills every hole.
-std::string holes_gcode(const grid::HolesPlan& plan, const DrillOptions& options);
+std::string holes_gcode(const HolesPlan& plan, const DrillOptions& options);
 
 /// A list in a file is JSON if the file's name ends in .json; on standard output, if --json is
 /// given.
@@ -91,7 +91,7 @@ bool is_json_wanted(bool json, const std::string& output);
 
 /// `list` is the file for the readings; empty: standard output.
 std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::string& list);
-std::string holes_page(const grid::HolesPlan& plan, const std::string& list);
+std::string holes_page(const HolesPlan& plan, const std::string& list);
 
 // The outputs of a plan: list, page, program and drawing.
 
@@ -146,7 +146,7 @@ std::string draw_follow_up(const std::vector<MarkPoint>& measured,
 /// The foot of the perpendicular on an edge of the bed.
 BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const Bed& bed);
 /// A self-contained SVG; nothing is fetched, no script runs.
-std::string draw_holes_plan(const grid::HolesPlan& plan);
+std::string draw_holes_plan(const HolesPlan& plan);
 
 // The part of chaintrue plan that chooses holes and tape distances.
 /// The numbers of holes and distances and their sigmas, shared by all verbs that plan holes.
@@ -168,7 +168,7 @@ void add_legend(const grid::estimation::ParameterKnowledge& knowledge, Section& 
 /// "20 distances", "18 distances and 6 to the sheet's edges".
 std::string distances_in_number(const MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.
-std::string workshop_list(const grid::HolesPlan& plan);
+std::string workshop_list(const HolesPlan& plan);
 
 // The next measurements of a diagnosis, as a list for the workshop and as lines for the file of marks.
 /// The number of the next visit; empty where visits are not numbered.
@@ -185,7 +185,7 @@ std::optional<int> next_visit(const Points& points) {
 std::string follow_up_list(const Diagnosis& found);
 
 /// Whether any of them has this kind.
-bool proposes(const Diagnosis& found, diagnosis::MeasurementKind kind);
+bool proposes(const Diagnosis& found, MeasurementKind kind);
 
 /// The points to add to the grid's file, with empty lengths or commands, and with visit numbers if
 /// the grid has them.
@@ -232,8 +232,7 @@ struct FollowUpTexts {
   std::string drawing;
 };
 /// Empty if the diagnosis used other readings.
-std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
-                                             const grid::Measured& measured);
+std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found, const Measured& measured);
 std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found, const MeasuredBelts& belts);
 
 }  // namespace chaintrue::cli

@@ -46,7 +46,7 @@ tr { break-inside: avoid; }
 
 /// Two tables next to each other, so that an evening's readings are on one sheet of paper; the next
 /// two below, on the next sheet.
-std::string tables_of(const std::string& head, const std::vector<std::string>& rows) {
+std::string tables_of(const std::string& head, const Words& rows) {
   // Space on A4 and Letter below the drawings, and on a whole sheet.
   constexpr std::size_t kFirstSheet = 2 * 18, kNextSheets = 2 * 36;
   std::string text;
@@ -68,8 +68,7 @@ std::string tables_of(const std::string& head, const std::vector<std::string>& r
 }
 
 std::string page_of(const std::string& title, const std::string& bed, std::string_view how,
-                    const std::vector<std::string>& steps, const std::string& head,
-                    const std::vector<std::string>& rows) {
+                    const Words& steps, const std::string& head, const Words& rows) {
   std::string list = "<ol>\n";
   for (const std::string& step : steps) list += fmt::format("<li>{}</li>\n", escaped(step));
   list += "</ol>";
@@ -113,7 +112,7 @@ std::string drawing_of(const Sheet& sheet, const Bed& bed) {
           walk);
   // As large as the distance of the nearest two marks allows.
   double nearest = 80.0;
-  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+  for (const auto i : each_index(sheet.marks)) {
     for (std::size_t k = 0; k < i; ++k) {
       nearest = std::min(nearest, view.scale() * grid::distance_mm(sheet.marks[i], sheet.marks[k]));
     }
@@ -149,18 +148,18 @@ std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::st
                   places ? "sent to " : "", places ? "measured x, mm" : "left chain, mm",
                   places ? "measured y, mm" : "right chain, mm");
   const std::vector<SheetVisit> visits = visits_of(sheet);
-  std::vector<std::string> rows;
+  Words rows;
   for (const SheetVisit& visit : visits) {
     rows.push_back(fmt::format("<tr><td>{}</td><td>{:.0f}</td><td>{:.0f}</td>{}</tr>\n",
                                visit.name(), visit.mark.x_mm + 0.0, visit.mark.y_mm + 0.0,
                                blank_cells(2)));
   }
-  std::vector<std::string> steps =
-      places ? std::vector<std::string>{
+  Words steps =
+      places ? Words{
                    "Fasten a sheet to the bed and do not move it until everything is measured. Zero is the middle of the bed, x to the right, y up.",
                    "Send the tool to the marks in numerical order, without any compensation, and mark where it stops (or run the program that drills them).",
                    "Measure x and y of every mark from the sheet's middle lines, to half a millimetre or better."}
-             : std::vector<std::string>{
+             : Words{
                    "Draw the marks on a sheet. Zero is the middle of the bed, x to the right, y up.",
                    "Bring the bit over each mark in numerical order. If it is not exactly on the mark, measure its position. Write down the lengths of both chains from the pin at 12 o'clock to their ends at the ring."};
   const std::size_t second = visits.size() - sheet.marks.size();
@@ -180,8 +179,8 @@ std::string sheet_page(const Sheet& sheet, const Machine& machine, const std::st
                  steps, head, rows);
 }
 
-std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
-  std::vector<std::string> rows;
+std::string holes_page(const HolesPlan& plan, const std::string& list) {
+  Words rows;
   for (const grid::HoleDistance& distance : plan.set.distances) {
     rows.push_back(fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td>{}</tr>\n",
                                escaped(plan.set.holes[distance.from].name),

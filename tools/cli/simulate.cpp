@@ -31,7 +31,7 @@ void say_next_of(const SimulateOptions& options) {
 
 int simulate_session(const SimulateOptions& options, const Machine& machine) {
   const synthetic::SyntheticSpec spec = parse_spec(options, machine);
-  auto session = synthetic::generate(machine, spec, shown_progress());
+  auto session = generate(machine, spec, shown_progress());
   if (!session) {
     say("chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}",
         session.error().place.x_mm, session.error().place.y_mm, session.error().sentence());
@@ -50,7 +50,7 @@ int simulate_places(const SimulateOptions& options, const Machine& machine) {
   problems.throw_if_any();
   std::vector<model::Visit> visits;
   for (const MarkPoint& place : files::read_points(options.points)) {
-    visits.push_back({model::identity_placement(place), static_cast<int>(visits.size())});
+    visits.push_back({identity_placement(place), as_int(visits.size())});
   }
   synthetic::PlacesRead read =
       synthetic::read_places(machine, hidden, visits, options.spec.model, shown_progress());
@@ -59,12 +59,12 @@ int simulate_places(const SimulateOptions& options, const Machine& machine) {
     say("chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is "
         "left out: {}",
         options.points, index, visits[index].position.x_mm, visits[index].position.y_mm,
-        model::sentence_of(reason));
+        sentence_of(reason));
   }
   write_output(options.output, files::write_grid(read.grid));
   if (!read.unreachable.empty()) return kNotSupportedOrOutside;
   // Few readings are only for viewing; a map needs at least as many as a plan has.
-  if (static_cast<int>(read.grid.points.size()) >= grid::kFewestPlanned) {
+  if (as_int(read.grid.points.size()) >= grid::kFewestPlanned) {
     say_next_of(options);
   } else {
     say_next({"simulate", "--machine", options.machine, "--grid", "7x4", "-o", "grid.json"});
@@ -94,16 +94,13 @@ int run_simulate(Verb verb, const SimulateOptions& options) {
                                 : simulate_places(options, machine);
 }
 
-std::optional<synthetic::DesignKind> spacing(std::string_view word) {
+std::optional<DesignKind> spacing(std::string_view word) {
   const auto kind = synthetic::design_kind(word);
-  const bool is_lattice =
-      kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
+  const bool is_lattice = kind == DesignKind::regular || kind == DesignKind::chebyshev;
   return is_lattice ? kind : std::nullopt;
 }
 
-std::optional<model::Model> model_of(std::string_view word) {
-  return files::named(files::kModels, word);
-}
+std::optional<Model> model_of(std::string_view word) { return files::named(files::kModels, word); }
 
 }  // namespace
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
 #include <charconv>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/files/answer_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/maslow4_log.hpp"
@@ -51,7 +49,7 @@ StatedBelts belts_of(const std::string& path) {
 /// Adds the causes of the file; those of --effect replace them.
 void add_causes(std::vector<AppliedEffect> causes, synthetic::BeltsSpec& spec) {
   for (AppliedEffect& own : causes) {
-    const bool is_given = grid::any_of(spec.hidden, [&](const auto& hidden) {
+    const bool is_given = any_of(spec.hidden, [&](const auto& hidden) {
       return hidden.effect == own.effect && hidden.side == own.side;
     });
     if (!is_given) spec.hidden.push_back(std::move(own));
@@ -59,14 +57,6 @@ void add_causes(std::vector<AppliedEffect> causes, synthetic::BeltsSpec& spec) {
 }
 
 /// "9x7".
-void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
-  const auto size = files::pair_of(text, 'x', 2, 100);
-  if (!size)
-    return problems.add("--grid", text, "columns x rows of places, 2 to 100 of each, as in 9x7",
-                        ProblemKind::bad_syntax);
-  spec.columns = (*size)[0];
-  spec.rows = (*size)[1];
-}
 
 /// `tl_x_mm=5`: truth less stated.
 void take_offset(const std::string& text, BeltMachine& truth, OptionProblems& problems) {
@@ -75,8 +65,7 @@ void take_offset(const std::string& text, BeltMachine& truth, OptionProblems& pr
   const auto belt = model::belt_of(what.substr(0, 2));
   const bool is_x = what.size() > 2 && what.substr(2) == "_x_mm";
   const bool is_y = what.size() > 2 && what.substr(2) == "_y_mm";
-  const bool is_free =
-      belt && *belt != model::Belt::bl && (is_x || (is_y && model::is_upper(*belt)));
+  const bool is_free = belt && *belt != Belt::bl && (is_x || (is_y && is_upper(*belt)));
   if (!is_free) {
     problems.add("--offset", text,
                  "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, true minus the file's value, as "
@@ -99,7 +88,8 @@ void take_pulls(const std::string& text, synthetic::BeltsSpec& spec, OptionProbl
 
 synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& problems) {
   synthetic::BeltsSpec spec;
-  take_grid(options.grid, spec, problems);
+  take_size(options.grid, 100, "columns x rows of places, 2 to 100 of each, as in 9x7", spec,
+            problems);
   take_pulls(options.pulls, spec, problems);
   spec.noise_mm = options.spec.noise.length_mm;
   spec.heavy_tails = options.spec.noise.heavy_tails;
@@ -108,8 +98,8 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
   spec.bad_size_mm = options.spec.bad.size_mm;
   spec.seed = options.spec.seed;
   spec.hidden = parse_effect_words(options.effects, problems);
-  for (const model::MachineProblem& problem :
-       model::effects::problems_in(model::belts::belt_effects(), spec.hidden)) {
+  for (const MachineProblem& problem :
+       effects::problems_in(model::belts::belt_effects(), spec.hidden)) {
     std::size_t index = 0;
     std::from_chars(problem.parameter.data() + 1,
                     problem.parameter.data() + problem.parameter.size(), index);
@@ -118,8 +108,7 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
     problems.add("--effect", problem.value + " in " + options.effects[index], problem.expected,
                  ProblemKind::impossible);
   }
-  require_bad_points(options, grid::as_size(spec.columns) * grid::as_size(spec.rows), "places",
-                     problems);
+  require_bad_points(options, as_size(spec.columns) * as_size(spec.rows), "places", problems);
   return spec;
 }
 
@@ -133,7 +122,7 @@ int simulate_the_belts(const SimulateOptions& options) {
   for (const std::string& offset : options.offsets) take_offset(offset, truth, problems);
   problems.throw_if_any();
   add_causes(std::move(stated.causes), spec);
-  auto made = synthetic::simulate_belts(stated.machine, truth, spec);
+  auto made = simulate_belts(stated.machine, truth, spec);
   if (!made) {
     say("chaintrue simulate: the command ({:.1f}, {:.1f}) mm cannot be reached: {}",
         made.error().place.x_mm, made.error().place.y_mm, made.error().sentence());
@@ -152,13 +141,12 @@ void check_values(const SimulateOptions& options, const Machine& stated, OptionP
     require_margin(problems, *options.spec.design.margin_mm, stated.bed, grid::kLeastPlannedSideMm);
 }
 
-std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
-                                                 OptionProblems& problems) {
-  std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
-  for (const synthetic::SettingOffset& offset : offsets) {
-    if (offset.setting < model::Setting::sheet_x_mm || options.holes.edges) continue;
+std::vector<SettingOffset> offsets_of(const SimulateOptions& options, OptionProblems& problems) {
+  std::vector<SettingOffset> offsets = parse_offsets(options.offsets, problems);
+  for (const SettingOffset& offset : offsets) {
+    if (offset.setting < Setting::sheet_x_mm || options.holes.edges) continue;
     problems.add(
-        "--offset", std::string(model::name(offset.setting)),
+        "--offset", std::string(name(offset.setting)),
         "a setting of the machine; without --edges the distances do not depend on the sheet",
         ProblemKind::unknown_word);
   }
@@ -182,22 +170,21 @@ synthetic::HolesSpec spec_of(const SimulateOptions& options, const Machine& stat
 int simulate_the_holes(const SimulateOptions& options, const Machine& stated) {
   OptionProblems problems;
   synthetic::HolesSpec spec = spec_of(options, stated, problems);
-  const std::vector<synthetic::SettingOffset> offsets = offsets_of(options, problems);
+  const std::vector<SettingOffset> offsets = offsets_of(options, problems);
   check_values(options, stated, problems);
   problems.throw_if_any();
-  Machine truth = synthetic::hidden_truth(stated, spec);
-  for (const synthetic::SettingOffset& offset : offsets)
-    synthetic::offset_setting(truth, spec.sheet, offset);
+  Machine truth = hidden_truth(stated, spec);
+  for (const SettingOffset& offset : offsets) offset_setting(truth, spec.sheet, offset);
   throw_if_impossible(truth, problems);
   HolesPlanRequest request = options.holes;
   request.margin_mm = options.spec.design.margin_mm.value_or(request.margin_mm);
   MeasuredHoles design =
-      value_of(grid::plan_holes(stated, request), "chaintrue simulate", kNotSupportedOrOutside).set;
+      value_of(plan_holes(stated, request), "chaintrue simulate", kNotSupportedOrOutside).set;
   require_bad_points(options, design.distances.size(), "distances", problems);
   problems.throw_if_any();
   design.name = options.title();
   design.tape.tape_zero_offset_mm = options.tape_zero_offset_mm;
-  const auto made = synthetic::simulate_holes(design, spec, truth);
+  const auto made = simulate_holes(design, spec, truth);
   if (!made) {
     say("chaintrue simulate: {}", made.error().sentence());
     return kNotSupportedOrOutside;

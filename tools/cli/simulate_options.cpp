@@ -6,7 +6,6 @@
 #include <charconv>
 #include <string_view>
 
-#include "grid/containers.hpp"
 #include "grid/files/names.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/points_file.hpp"
@@ -18,21 +17,16 @@ namespace chaintrue::cli {
 namespace {
 
 void take_size(const std::string& grid, synthetic::Design& design, OptionProblems& problems) {
-  const auto size = files::pair_of(grid, 'x', 2, 1000);
-  if (!size)
-    return problems.add("--grid", grid, "columns x rows, each 2 to 1000, as in 7x4",
-                        ProblemKind::bad_syntax);
-  design.columns = (*size)[0];
-  design.rows = (*size)[1];
+  take_size(grid, 1000, "columns x rows, each 2 to 1000, as in 7x4", design, problems);
 }
 
 synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& problems) {
   synthetic::Design design = options.spec.design;
   if (!options.marks.empty()) {
-    design.kind = synthetic::DesignKind::given;
+    design.kind = DesignKind::given;
     design.given = files::read_points(options.marks);
   } else if (options.random_points != 0) {
-    design.kind = synthetic::DesignKind::random;
+    design.kind = DesignKind::random;
     design.points = options.random_points;
   } else {
     design.kind = options.spacing;
@@ -55,9 +49,9 @@ std::optional<StatedNoise> parse_stated(const SimulateOptions& options) {
 Machine machine_for(const Words& effects) {
   Machine machine;
   for (const std::string& argument : effects) {
-    const model::effects::Effect* effect =
-        model::effects::find_effect(std::string_view(argument).substr(0, argument.find(':')));
-    if (effect != nullptr && effect->part == model::effects::Part::brackets)
+    const Effect* effect =
+        effects::find_effect(std::string_view(argument).substr(0, argument.find(':')));
+    if (effect != nullptr && effect->part == effects::Part::brackets)
       machine.attachment = model::Brackets{};
   }
   return machine;
@@ -69,9 +63,8 @@ std::string SimulateOptions::title() const {
   return name.empty() ? fmt::format("simulated, seed {}", spec.seed) : name;
 }
 
-std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
-                                                    OptionProblems& problems) {
-  std::vector<synthetic::SettingOffset> offsets;
+std::vector<SettingOffset> parse_offsets(const Words& arguments, OptionProblems& problems) {
+  std::vector<SettingOffset> offsets;
   for (const std::string& argument : arguments) {
     const auto named = named_number(argument);
     const auto setting = named ? model::setting_from_name(named->name) : std::nullopt;
@@ -86,7 +79,7 @@ std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
 }
 
 void throw_if_impossible(const Machine& truth, OptionProblems& problems) {
-  for (const model::MachineProblem& problem : problems_of(truth)) {
+  for (const MachineProblem& problem : problems_of(truth)) {
     problems.add("--offset", fmt::format("{} = {}", problem.parameter, problem.value),
                  problem.expected, ProblemKind::impossible);
   }
@@ -96,7 +89,7 @@ void throw_if_impossible(const Machine& truth, OptionProblems& problems) {
 void require_bad_points(const SimulateOptions& options, std::size_t most, std::string_view what,
                         OptionProblems& problems) {
   const int bad = options.spec.bad.count;
-  if (grid::as_size(bad) <= most) return;
+  if (as_size(bad) <= most) return;
   problems.add("--bad-points", fmt::format("{}", bad),
                fmt::format("at most one for each of the {} {}", most, what),
                ProblemKind::out_of_range);
@@ -132,7 +125,7 @@ synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const Machin
     problems.require("--margin-mm", *margin_mm, 0.0, half);
   }
   problems.throw_if_any();
-  throw_if_impossible(synthetic::truth_of(machine, spec).machine, problems);
+  throw_if_impossible(truth_of(machine, spec).machine, problems);
   return spec;
 }
 
@@ -178,7 +171,7 @@ std::optional<AppliedEffect> parse_form(const std::string& argument, OptionProbl
 }  // namespace
 
 std::vector<AppliedEffect> parse_effect_words(const Words& arguments, OptionProblems& problems) {
-  return grid::mapped(arguments, [&](const std::string& argument) {
+  return mapped(arguments, [&](const std::string& argument) {
     return parse_form(argument, problems).value_or(AppliedEffect{});
   });
 }
@@ -195,7 +188,7 @@ std::vector<AppliedEffect> parse_effects(const Words& arguments, const Machine& 
     with.effects.push_back(*effect);
     origin.push_back(&argument);
   }
-  for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
+  for (const MachineProblem& problem : effects::problems_of_effects(with)) {
     // "/effects/3/side": 3 is the argument's number.
     std::string_view place =
         std::string_view(problem.parameter).substr(std::string_view("/effects/").size());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "grid/planning/holes_plan.hpp"
@@ -16,6 +17,9 @@
 
 namespace chaintrue::cli {
 
+using synthetic::DesignKind;
+using synthetic::SettingOffset;
+
 struct SimulateOptions {
   std::string machine;
   /// Instead of a machine: a chaintrue_belts or chaintrue_anchors file.
@@ -23,7 +27,7 @@ struct SimulateOptions {
   /// For belts: the pull in each pass, as in 1,1.6.
   std::string pulls;
   std::string grid;
-  synthetic::DesignKind spacing = synthetic::DesignKind::regular;
+  DesignKind spacing = DesignKind::regular;
   int random_points = 0;
   std::string marks;
   std::string points;
@@ -50,9 +54,17 @@ struct SimulateOptions {
   std::string title() const;
 };
 
+/// For --grid. \param most columns or rows
+template <class Places>
+void take_size(const std::string& grid, int most, std::string expected, Places& places,
+               OptionProblems& problems) {
+  const auto size = files::pair_of(grid, 'x', 2, most);
+  if (!size) return problems.add("--grid", grid, std::move(expected), ProblemKind::bad_syntax);
+  places.columns = (*size)[0];
+  places.rows = (*size)[1];
+}
 /// For --offset.
-std::vector<synthetic::SettingOffset> parse_offsets(const Words& arguments,
-                                                    OptionProblems& problems);
+std::vector<SettingOffset> parse_offsets(const Words& arguments, OptionProblems& problems);
 /// \throws InputError with all problems, and those of a machine with these offsets.
 void throw_if_impossible(const Machine& truth, OptionProblems& problems);
 /// At most one bad reading for each of these.

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "grid/containers.hpp"
 #include "grid/plotter/test_drawing.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/svg.hpp"
@@ -24,7 +23,7 @@ namespace {
 
 std::vector<BedPoint> corners_of(SquareTask task) {
   task.points_per_side = 2;
-  return model::outline_of(task);
+  return outline_of(task);
 }
 
 /// Each side's end is the next one's beginning.
@@ -94,11 +93,11 @@ struct SquareRefusal {
   std::string why;
 };
 
-tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& options,
-                                                          const SquareTask& task) {
+tl::expected<CutSquare, SquareRefusal> by_machines(const SquareOptions& options,
+                                                   const SquareTask& task) {
   const Machine machine = read_machine_input(options.machine);
   const Machine believed = read_machine_input(options.controller_machine);
-  auto square = model::predict_square(machine, believed, task);
+  auto square = predict_square(machine, believed, task);
   if (square) return *std::move(square);
   const model::SquareFailure& failure = square.error();
   return tl::unexpected(
@@ -118,16 +117,15 @@ std::unique_ptr<const GcodeMachine> machine_of(const SquareOptions& options) {
   return std::make_unique<const GcodeMachine>(gcode);
 }
 
-BedPoint middle_of(const interp::Rectangle& sheet) {
+BedPoint middle_of(const Rectangle& sheet) {
   return {0.5 * (sheet.x_min + sheet.x_max), 0.5 * (sheet.y_min + sheet.y_max)};
 }
 
 /// The controller pays out lengths by its settings for each command; the map gives the tool's
 /// position for them.
-tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareTask& task,
-                                                     const GcodeMachine& machine) {
+tl::expected<CutSquare, SquareRefusal> by_map(const SquareTask& task, const GcodeMachine& machine) {
   std::vector<BedPoint> cut;
-  for (const BedPoint commanded : model::outline_of(task)) {
+  for (const BedPoint commanded : outline_of(task)) {
     const auto lengths = machine.controller.kinematics->lengths(commanded);
     if (!lengths)
       return tl::unexpected(SquareRefusal{"the controller", commanded, lengths.error().sentence()});
@@ -135,15 +133,15 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareTask& task,
     if (!tool) return tl::unexpected(SquareRefusal{"the map", commanded, tool.error().sentence()});
     cut.push_back(*tool);
   }
-  return model::measured_square(task, std::move(cut));
+  return measured_square(task, std::move(cut));
 }
 
-std::string as_table(const model::CutSquare& square, const SquareTask& task) {
+std::string as_table(const CutSquare& square, const SquareTask& task) {
   std::string text =
       fmt::format("{:<18}{:>12}{:>12}{:>10}\n", "", "commanded_mm", "cut_mm", "bow_mm");
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
-    text += fmt::format("{:<18}{:>12.3f}{:>12.3f}{:>+10.3f}\n", kSideNames[grid::as_size(side)],
+    text += fmt::format("{:<18}{:>12.3f}{:>12.3f}{:>+10.3f}\n", kSideNames[as_size(side)],
                         task.size_mm, cut.length_mm, cut.bow_mm);
   }
   const double diagonal = task.size_mm * std::sqrt(2.0);
@@ -155,12 +153,12 @@ std::string as_table(const model::CutSquare& square, const SquareTask& task) {
   return text;
 }
 
-std::string as_json(const model::CutSquare& square, const SquareTask& task) {
+std::string as_json(const CutSquare& square, const SquareTask& task) {
   std::string text = fmt::format("{{\n  \"size_mm\": {},\n  \"sides\": {{\n", task.size_mm);
   for (const model::SquareSide side : model::kSquareSides) {
     const model::CutSide& cut = square.side(side);
     text += fmt::format("    \"{}\": {{\"length_mm\": {}, \"bow_mm\": {}}}{}\n",
-                        kSideNames[grid::as_size(side)], cut.length_mm, cut.bow_mm,
+                        kSideNames[as_size(side)], cut.length_mm, cut.bow_mm,
                         side == model::SquareSide::bottom ? "" : ",");
   }
   text += fmt::format(
@@ -195,12 +193,12 @@ void advise(const SquareOptions& options, const SquareTask& task) {
 }
 
 /// The substitute for a map; null for two machines.
-const grid::KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& machine) {
-  return machine == nullptr ? nullptr : machine->target.as<grid::KnownPlotter>();
+const KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& machine) {
+  return machine == nullptr ? nullptr : machine->target.as<KnownPlotter>();
 }
 
 int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeMachine>& machine) {
-  const grid::KnownPlotter* plotter = plotter_of(machine);
+  const KnownPlotter* plotter = plotter_of(machine);
   const SquareTask task =
       task_of(options, plotter == nullptr ? BedPoint{} : middle_of(machine->controller.sheet));
   const auto square = machine == nullptr ? by_machines(options, task) : by_map(task, *machine);

@@ -41,9 +41,8 @@ constexpr std::string_view kKeys[][2] = {
 };
 
 /// The keys' meanings as comments of the machine file.
-std::vector<std::string> template_comments() {
-  std::vector<std::string> comments = {
-      "A classic Maslow. Enter your machine's numbers; every key is explained here."};
+Words template_comments() {
+  Words comments = {"A classic Maslow. Enter your machine's numbers; every key is explained here."};
   for (const auto& [key, meaning] : kKeys) comments.push_back(fmt::format("{}: {}", key, meaning));
   return comments;
 }
@@ -121,7 +120,7 @@ struct StartCommand {
 /// The defaults of `chaintrue plan`.
 struct Plans {
   grid::MeasurementPlan marks;
-  grid::HolesPlan holes;
+  HolesPlan holes;
 };
 
 /// \throws Failed
@@ -137,8 +136,7 @@ Plans plans_for(const Machine& machine) {
   const auto planned = [](auto plan) {
     return value_of(std::move(plan), "chaintrue start", kNotSupportedOrOutside);
   };
-  return {planned(grid::plan_measurement(machine, marks)),
-          planned(grid::plan_holes(machine, holes))};
+  return {planned(plan_measurement(machine, marks)), planned(plan_holes(machine, holes))};
 }
 
 std::vector<FolderFile> sheets_of(const Machine& machine, const Plans& plans) {
@@ -179,8 +177,8 @@ bool names_a_folder(const std::string& word) {
 
 /// An .ini that begins with its first section looks like a list, so its kind is not detected.
 InputFile open_settings(const std::string& path) {
-  InputFile file{path, files::name_in_messages(path), files::read_whole_file(path)};
-  if (files::is_json(file.text) && file.text.find('{') < file.text.find('['))
+  InputFile file{path, name_in_messages(path), read_whole_file(path)};
+  if (is_json(file.text) && file.text.find('{') < file.text.find('['))
     file.kind = files::kind_of(file.text, file.name);
   return file;
 }

@@ -14,14 +14,13 @@ namespace chaintrue::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using model::PlotterFirmware;
 
 /// A mural and a Polargraph read a picture, the others a program.
 FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
   if (drawing.firmware == PlotterFirmware::mural || drawing.firmware == PlotterFirmware::polargraph)
-    return {"page.svg", grid::drawing_svg(drawing), Origin::drawing};
+    return {"page.svg", drawing_svg(drawing), Origin::drawing};
   return {"page.gcode",
-          "; chaintrue start: the test drawing of a V-plotter\n" + grid::drawing_gcode(drawing),
+          "; chaintrue start: the test drawing of a V-plotter\n" + drawing_gcode(drawing),
           Origin::program};
 }
 
@@ -34,9 +33,9 @@ void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
                        cross.commanded.y_mm, why),
            "an area that the pen reaches");
   };
-  const auto drawn = grid::drawn_measures_of(drawing);
+  const auto drawn = drawn_measures_of(drawing);
   if (!drawn) refuse_cross(drawn.error().place, drawn.error().sentence());
-  if (const auto cross = grid::cross_beyond_belt(drawing))
+  if (const auto cross = cross_beyond_belt(drawing))
     refuse_cross(*cross, fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)",
                                      *drawing.longest_belt_mm));
 }
@@ -45,11 +44,11 @@ void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
 
 bool is_of_a_plotter(const InputFile& file) {
   return file.kind == FileKind::plotter ||
-         (!files::is_json(file.text) && files::is_of_a_plotter_alone(file.text));
+         (!is_json(file.text) && files::is_of_a_plotter_alone(file.text));
 }
 
 files::ReadPlotter load_plotter(const InputFile& file) {
-  if (files::is_json(file.text)) {
+  if (is_json(file.text)) {
     require_kind(file, {FileKind::plotter});
     return {files::parse_plotter(file.text, file.name), {}};
   }
@@ -64,15 +63,15 @@ int start_plotter(Verb verb, const InputFile& file, std::string folder) {
   if (folder.empty() && is_ours) folder = fs::path(file.path).parent_path().string();
   if (folder.empty()) folder = ".";
   if (read.plotter.found) {
-    set = grid::once_typed_in(set, grid::machine_found(set, *read.plotter.found));
+    set = once_typed_in(set, machine_found(set, *read.plotter.found));
     say("This page is for the plotter with the numbers from export plotter typed in.");
   }
-  const grid::TestDrawing drawing = grid::planned_drawing(set);
+  const grid::TestDrawing drawing = planned_drawing(set);
   require_reach(drawing, file.name);
   const FolderFile page = drawn_page_of(drawing);
   std::vector<FolderFile> contents = {
       page,
-      {"sheet.txt", grid::measuring_list(drawing), Origin::list},
+      {"sheet.txt", measuring_list(drawing), Origin::list},
       {"drawing.json", files::write_blank_drawing(drawing), Origin::measured}};
   if (!is_ours) {
     contents.push_back({"plotter.json",

@@ -14,7 +14,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "grid/raster.hpp"
 #include "grid/synthetic/effect_picture.hpp"
@@ -26,9 +25,11 @@
 
 namespace chaintrue::cli {
 
+using model::CutSquare;
+
 /// From millimetres of a rectangle, y up, to a picture's units.
 struct BedView {
-  interp::Rectangle area;
+  Rectangle area;
   report::ToolVector corner;  ///< the upper left one in the picture
   double wide;
 
@@ -86,12 +87,12 @@ std::string short_number(double value);
 
 /// chaintrue square: the commanded outline, the cut one with its errors magnified, and the numbers
 /// that a ruler would show.
-std::string draw_square(const model::CutSquare& square, const SquareTask& task);
+std::string draw_square(const CutSquare& square, const SquareTask& task);
 
 /// chaintrue effects --atlas: writes a page with the drawings of each cause, for two chains, four
 /// belts or a V-plotter; only for one cause if `cause` is not empty. `declared` are files of the
 /// owner's effects, for two chains only. \throws InputError with every problem.
-int write_atlas(const std::string& machine, const std::string& cause,
-                const std::vector<std::string>& declared, const std::string& output);
+int write_atlas(const std::string& machine, const std::string& cause, const Words& declared,
+                const std::string& output);
 
 }  // namespace chaintrue::cli

@@ -10,7 +10,6 @@
 #include <exception>
 #include <filesystem>
 
-#include "grid/containers.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/sweep/run_sweep.hpp"
@@ -106,7 +105,7 @@ Chart panel(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& 
     const std::string level =
         factor + 1 == sweep::kFactors ? "all" : sweep::level_name(spec, factor, error.level);
     lines.rows.push_back({level, points_of(spec, error.grid), error.tool_rms_mm, error.tool_max_mm,
-                          grid::as_double(error.cells)});
+                          as_double(error.cells)});
   }
   return {.specification = "sweep_lines",
           .title = std::string(kTitles[factor]),
@@ -128,10 +127,9 @@ Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& 
   for (const files::LevelError& error : errors) {
     // A factor with one level duplicates the grids.
     if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
-    table.rows.push_back(
-        {{std::string(sweep::kFactorNames[error.factor]),
-          sweep::level_name(spec, error.factor, error.level), points_of(spec, error.grid),
-          error.tool_rms_mm, error.tool_max_mm, grid::as_double(error.cells)}});
+    table.add({std::string(sweep::kFactorNames[error.factor]),
+               sweep::level_name(spec, error.factor, error.level), points_of(spec, error.grid),
+               error.tool_rms_mm, error.tool_max_mm, as_double(error.cells)});
   }
   return table;
 }
@@ -143,7 +141,7 @@ std::vector<double> errors_of_levels(const std::vector<files::LevelError>& error
   std::vector<double> cells(levels, 0.0);
   for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
-    const auto number = grid::as_double(error.cells);
+    const auto number = as_double(error.cells);
     squares[error.level] += number * error.tool_rms_mm * error.tool_rms_mm;
     cells[error.level] += number;
   }
@@ -153,16 +151,15 @@ std::vector<double> errors_of_levels(const std::vector<files::LevelError>& error
 }
 
 /// The sweep's answer to its question, a sentence for each varying factor.
-std::vector<std::string> answers(const sweep::SweepSpec& spec,
-                                 const std::vector<files::LevelError>& errors) {
+Words answers(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
   const auto counts = sweep::level_counts(spec);
-  std::vector<std::string> sentences;
+  Words sentences;
   std::vector<files::LevelError> grids;
   for (const files::LevelError& error : errors) {
     if (error.factor + 1 == sweep::kFactors) grids.push_back(error);
   }
   if (grids.size() > 1) {
-    const auto [fewest, most] = grid::minmax_element(grids, [&](const auto& a, const auto& b) {
+    const auto [fewest, most] = minmax_element(grids, [&](const auto& a, const auto& b) {
       return points_of(spec, a.grid) < points_of(spec, b.grid);
     });
     sentences.push_back(fmt::format(
@@ -173,9 +170,9 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
   for (std::size_t factor = 0; factor + 1 < sweep::kFactors; ++factor) {
     if (counts[factor] < 2) continue;
     const std::vector<double> rms = errors_of_levels(errors, factor, counts[factor]);
-    const auto [least, most] = grid::minmax_element(rms);
+    const auto [least, most] = minmax_element(rms);
     const auto level = [&](auto at) {
-      return sweep::level_name(spec, factor, grid::as_size(at - rms.begin()));
+      return sweep::level_name(spec, factor, as_size(at - rms.begin()));
     };
     // Results that round to the same hundredths are equal in practice.
     if (fmt::format("{:.2f}", *least) == fmt::format("{:.2f}", *most)) {
@@ -268,9 +265,8 @@ int assemble(Verb verb, const sweep::SweepSpec& spec, const files::FinishedCells
   }
   check_folder(verb, options.directory, results());
   const auto errors = files::write_results(spec, cells, options.directory);
-  files::write_whole_file(
-      fs::path(options.directory) / "report.html",
-      files::signed_text(report::render_html(sweep_page(spec, errors)), Origin::page));
+  files::write_whole_file(fs::path(options.directory) / "report.html",
+                          files::signed_text(render_html(sweep_page(spec, errors)), Origin::page));
   say("{} cells: {}/results.csv, summary.json, report.html (open it in any browser)", cells.size(),
       options.directory);
   say_next({"start"});
@@ -303,7 +299,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
     check_folder(verb, options.directory, results());
     if (processes.rank() > 0) return;
     run.progress = [](std::uint64_t finished, std::uint64_t total) {
-      progress_is(grid::as_double(finished), grid::as_double(total));
+      progress_is(as_double(finished), as_double(total));
     };
   });
   const bool is_done =

@@ -8,7 +8,6 @@
 #include <cstdlib>
 
 #include "grid/belts/belts_fit.hpp"
-#include "grid/containers.hpp"
 #include "grid/diagnosis/options.hpp"
 #include "grid/map/check.hpp"
 #include "grid/map/fit.hpp"
@@ -67,7 +66,7 @@ void add_option_words(Words& words, const std::string& option, const Words& valu
 }
 
 void say_next(const Words& words) {
-  if (grid::contains(words, "-")) return;
+  if (contains(words, "-")) return;
   std::string line = called_as;
   for (const std::string& word : words) line += " " + quoted(word);
   std::fflush(stdout);
@@ -94,7 +93,7 @@ void QuietTalk::end(bool is_to_be_reported) {
   if (is_to_be_reported && ::lseek(kept_, 0, SEEK_SET) == 0) {
     char buffer[4096];
     for (ssize_t count = 0; (count = ::read(kept_, buffer, sizeof buffer)) > 0;)
-      std::fwrite(buffer, 1, grid::as_size(count), stderr);
+      std::fwrite(buffer, 1, as_size(count), stderr);
   }
   ::close(kept_);
 }
@@ -114,15 +113,15 @@ std::string with_name(std::string message, std::string_view name) {
   return fmt::format("{} ({})", message, name);
 }
 
-void print_warnings(const std::vector<files::Warning>& warnings) {
-  for (const files::Warning& warning : warnings) {
-    say("{}", warning.kind ? with_name(warning.message(), grid::name_of(*warning.kind))
-                           : warning.message());
+void print_warnings(const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings) {
+    say("{}",
+        warning.kind ? with_name(warning.message(), name_of(*warning.kind)) : warning.message());
   }
 }
 
-std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings) {
-  return grid::mapped(warnings, &files::Warning::sentence);
+Words sentences_of(const std::vector<Warning>& warnings) {
+  return mapped(warnings, &Warning::sentence);
 }
 
 namespace {
@@ -130,8 +129,8 @@ namespace {
 /// `kLast` is the enumerator of the last name, which ensures that every enumerator has a name.
 template <auto kLast, std::size_t n>
 std::string_view name_in(decltype(kLast) reason, const std::string_view (&names)[n]) {
-  static_assert(n == grid::as_size(kLast) + 1);
-  return names[grid::as_size(reason)];
+  static_assert(n == as_size(kLast) + 1);
+  return names[as_size(reason)];
 }
 
 }  // namespace

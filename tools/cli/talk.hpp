@@ -81,9 +81,9 @@ void write_whole_lines();
 /// names are stable when sentences change. Otherwise only the message.
 [[nodiscard]] std::string with_name(std::string message, std::string_view name);
 
-void print_warnings(const std::vector<files::Warning>& warnings);
+void print_warnings(const std::vector<Warning>& warnings);
 /// For the comments of a file that was made with these assumptions.
-std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings);
+Words sentences_of(const std::vector<Warning>& warnings);
 
 // Shows progress on a terminal after one second: elapsed time, the step and the number of steps
 // and, if known, the share done and the time left. No output if standard error is not a terminal.

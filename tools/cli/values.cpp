@@ -14,14 +14,14 @@
 namespace chaintrue::cli {
 namespace {
 
-std::string expected(const files::Range& range, bool is_whole) {
+std::string expected(const Range& range, bool is_whole) {
   const std::string text = range.expected();
   constexpr std::string_view kNumber = "a number";
   return is_whole ? "a whole number" + text.substr(kNumber.size()) : text;
 }
 
 std::optional<double> read_number(const std::string& name, const std::string& text,
-                                  const files::Range& range, bool is_whole) {
+                                  const Range& range, bool is_whole) {
   const auto number = files::number_of(text);
   if (number && range.holds(*number) && (!is_whole || *number == std::floor(*number)))
     return number;
@@ -51,7 +51,7 @@ Value::Value(bool& flag)
         return verb.app().add_flag(names, flag, help);
       }) {}
 
-Value::Value(const files::Range& range, bool is_whole, Take take, std::optional<double> usual)
+Value::Value(const Range& range, bool is_whole, Take take, std::optional<double> usual)
     : declare([=, take = std::move(take)](Verb verb, auto& names, auto& help) {
         const auto read = [names, range, is_whole, take](const std::string& text) {
           if (const auto number = read_number(names, text, range, is_whole)) take(*number);
@@ -61,7 +61,7 @@ Value::Value(const files::Range& range, bool is_whole, Take take, std::optional<
         return option->type_name(is_whole ? "INT" : "FLOAT");
       }) {}
 
-Value::Value(std::vector<double>& numbers, const files::Range& range, int count)
+Value::Value(std::vector<double>& numbers, const Range& range, int count)
     : declare([&numbers, range, count](Verb verb, auto& names, auto& help) {
         const auto read = [&numbers, names, range](const Words& texts) {
           // The number of values is kept as typed.

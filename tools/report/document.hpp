@@ -117,11 +117,6 @@ struct Row {
   /// A flagged row is highlighted; its last cell should give the reason.
   bool is_flagged = false;
 };
-/// With the reason in a last cell where the row is flagged.
-[[nodiscard]] inline Row row_with_flag(std::vector<Cell> cells, bool is_flagged, const char* why) {
-  if (is_flagged) cells.emplace_back(why);
-  return {std::move(cells), is_flagged};
-}
 struct Table {
   std::vector<Column> columns{};
   std::vector<Row> rows{};
@@ -131,6 +126,12 @@ struct Table {
   bool is_headed = false;
   /// On the terminal: width of the first heading; 0: as wide as its column.
   int head_width = 0;
+
+  /// With the reason in a last cell where the row is flagged.
+  void add(std::vector<Cell> cells, bool is_flagged = false, const char* why = nullptr) {
+    if (is_flagged && why != nullptr) cells.emplace_back(why);
+    rows.push_back({std::move(cells), is_flagged});
+  }
 };
 
 using Value = std::variant<double, bool, std::string>;

@@ -7,7 +7,7 @@ namespace chaintrue::report {
 
 Section glossary() {
   Table table{.columns = {{"Word"}, {"What it means here"}}};
-  for (const Term& term : kTerms) table.rows.push_back({{term.word, term.meaning}});
+  for (const Term& term : kTerms) table.add({term.word, term.meaning});
   return {.title = "Words", .blocks = {std::move(table)}, .is_folded = true};
 }
 
