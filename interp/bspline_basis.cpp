@@ -55,11 +55,9 @@ MatrixXd gram_of(const BsplineAxis& axis, int order) {
 // values there minus a third of the squared step.
 Eigen::MatrixX3d axis_polynomials(Index columns) {
   const double step = 2.0 / static_cast<double>(columns - 3);
+  const VectorXd u = VectorXd::LinSpaced(columns, -1.0 - step, 1.0 + step);
   Eigen::MatrixX3d polynomials(columns, 3);
-  for (Index i = 0; i < columns; ++i) {
-    const double u = static_cast<double>(i - 1) * step - 1.0;
-    polynomials.row(i) << 1.0, u, u * u - step * step / 3.0;
-  }
+  polynomials << VectorXd::Ones(columns), u, u.array().square() - step * step / 3.0;
   return polynomials;
 }
 
@@ -78,10 +76,11 @@ BasisSupport BsplineBasis::at(double x, double y) const {
   const AxisSupport sx = support(x_, x);
   const AxisSupport sy = support(y_, y);
   BasisSupport result;
-  for (Index k = 0; k < 16; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    result.index[at] = (sy.first + k / 4) * x_.columns + sx.first + k % 4;
-    result.value[at] = sx.value[k % 4] * sy.value[k / 4];
+  Eigen::Map<Matrix4d>(result.value.data()) = sx.value * sy.value.transpose();
+  Index k = 0;
+  for (Index& index : result.index) {
+    index = (sy.first + k / 4) * x_.columns + sx.first + k % 4;
+    ++k;
   }
   return result;
 }

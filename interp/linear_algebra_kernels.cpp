@@ -57,7 +57,7 @@ void add_square(Output c, double scale, Input a) {
   const Entries left = entries(a);
   Matrix sum = stored(c);
   if (2 * c.rows + left.cols() < kFew) {
-    sum.triangularView<Eigen::Lower>() += scale * left.lazyProduct(left.transpose());
+    sum += scale * left.lazyProduct(left.transpose());
   } else if (a.transposed) {
     sum.selfadjointView<Eigen::Lower>().rankUpdate(stored(a).transpose(), scale);
   } else {

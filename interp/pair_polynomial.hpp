@@ -25,7 +25,10 @@ class alignas(64) PairPolynomial {
  public:
   /// powers(i, j) is the coefficient of u^i v^j.
   void set(std::size_t surface, const Matrix4d& powers) {
-    Eigen::Map<Matrix4d, Eigen::Unaligned, Eigen::Stride<2, 8>>(c_.data() + surface) = powers;
+    double* const c = c_.data() + surface;
+    for (Index i = 0; i < 4; ++i) {
+      for (Index j = 0; j < 4; ++j) c[8 * i + 2 * j] = powers(i, j);
+    }
   }
 
   /// At u and v, which rise by `per_x` and `per_y` with each unit of x and y.

@@ -31,7 +31,7 @@ GridShape grid_shape(double width, double height, int points) {
   for (int columns = 2; 2 * columns <= points; ++columns) {
     const GridShape shape{columns, points / columns};
     // Spacings 10 % apart cost as much as 5 % of the points.
-    const double used = static_cast<double>(shape.columns * shape.rows) / points;
+    const double used = 1.0 * shape.columns * shape.rows / points;
     const double aspect = (width / (columns - 1)) / (height / (shape.rows - 1));
     const double score = used - 0.5 * std::abs(std::log(aspect));
     if (score > best_score) {

@@ -81,8 +81,8 @@ class Search {
     // Rows are whitened: ten digits below the assumed sigma is rounding.
     constexpr double kLeast = 1e-20;
     const double square = problem.response.squaredNorm();
-    const auto rows = static_cast<double>(std::max<Index>(problem.rows, 1));
-    most_noise_ = std::log(std::max(square / rows, kLeast));
+    // The least too if there are no rows, which have no mean.
+    most_noise_ = std::log(std::max(kLeast, square / static_cast<double>(problem.rows)));
     if (problem.noise.knowledge != NoiseKnowledge::exact) {
       // Noise below 1e-5 of the responses cannot be distinguished from the rounding of a leverage
       // near one.

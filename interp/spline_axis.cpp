@@ -45,13 +45,12 @@ SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends, int degr
   const Index n = std::ssize(nodes_);
   if (n <= degree) degree_ = 3;
   const auto [low, high] = effective(ends, n);
-  const auto left_out = [&](EndCondition end) {
-    return end == EndCondition::not_a_knot ? (degree_ - 1) / 2 : 0;
-  };
+  using enum EndCondition;
+  const int left_out = (degree_ - 1) / 2;
   const auto at_end = static_cast<std::size_t>(degree_ + 1);
   knots_.assign(at_end, nodes_.front());
-  knots_.insert(knots_.end(), nodes_.begin() + 1 + left_out(low),
-                nodes_.end() - 1 - left_out(high));
+  knots_.insert(knots_.end(), nodes_.begin() + 1 + (low == not_a_knot ? left_out : 0),
+                nodes_.end() - 1 - (high == not_a_knot ? left_out : 0));
   knots_.insert(knots_.end(), at_end, nodes_.back());
   const Index functions = std::ssize(knots_) - degree_ - 1;
   MatrixXd equations = MatrixXd::Zero(functions, functions);
@@ -63,13 +62,13 @@ SplineAxis::SplineAxis(std::vector<double> nodes, const AxisEnds& ends, int degr
     equations.row(row++).segment(s.first, s.count) = s.value.head(s.count);
   }
   const auto add_end = [&](EndCondition end, double at, double inward, Index given) {
-    if (end == EndCondition::not_a_knot) return;
+    if (end == not_a_knot) return;
     for (int k = 0; k < 3; ++k) {
       const SplineSupport s = support(at + 0.5 * k * inward);
       equations.row(row).segment(s.first, s.count) +=
           kSlopeWeights[static_cast<int>(end)][k] * s.slope.head(s.count);
     }
-    if (end == EndCondition::clamped) right(row, given) = 1.0;
+    if (end == clamped) right(row, given) = 1.0;
     ++row;
   };
   add_end(low, nodes_[0], nodes_[1] - nodes_[0], n);

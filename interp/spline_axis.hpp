@@ -54,6 +54,7 @@ class SplineAxis {
   explicit SplineAxis(std::vector<double> nodes, const AxisEnds& ends = {}, int degree = 3);
 
   std::span<const double> nodes() const { return nodes_; }
+  std::size_t size() const { return nodes_.size(); }
 
   /// Beyond the ends the polynomials of the end cells continue.
   SplineSupport support(double x) const;

@@ -29,7 +29,7 @@ TensorSpline::TensorSpline(std::shared_ptr<const TensorAxes> axes,
     : axes_(std::move(axes)) {
   const auto x = axes_->x.nodes();
   const Index nx = std::ssize(x);
-  const Index ny = std::ssize(axes_->y.nodes());
+  const Index ny = std::ssize(axes_->y);
   require(values.rows() == nx && values.cols() == ny, "{} x {} values for {} x {} nodes",
           values.rows(), values.cols(), nx, ny);
   require(values.allFinite(), "a value of the grid is not finite");
