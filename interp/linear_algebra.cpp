@@ -57,7 +57,8 @@ void add_outer(MatrixXd& c, double scale, const Operand& a) {
 }
 
 MatrixXd outer(const Operand& a, double diagonal) {
-  MatrixXd c = diagonal * MatrixXd::Identity(a.rows(), a.rows());
+  MatrixXd c = MatrixXd::Zero(a.rows(), a.rows());
+  c.diagonal().setConstant(diagonal);
   add_outer(c, 1.0, a);
   return c;
 }
