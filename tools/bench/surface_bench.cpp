@@ -2,7 +2,6 @@
 // Both chain surfaces of a hanging router, from the wrapped chain's closed form, on grids of
 // columns by rows of nodes. Peers run on the same points in the same process; items are points.
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -159,7 +158,7 @@ PenalisedProblem joint_problem(std::size_t count) {
     problem.add_rows(rows,
                      Eigen::VectorXd::Constant(2, smooth(p.x, p.y) / kSigma + random.normal()));
   }
-  problem.ridge = {2 * m, problem.design.rightCols(2 * m).squaredNorm() / (2.0 * m)};
+  problem.ridge = {2 * m, problem.design.rightCols(2 * m).colwise().squaredNorm().mean()};
   problem.prior_precision.topLeftCorner(kShared, kShared).setIdentity();
   return problem;
 }
