@@ -24,8 +24,13 @@ namespace chaintrue::interp {
 struct BasisSupport {
   std::array<Index, 16> index;
   std::array<double, 16> value;
-  std::array<double, 16> dx;
-  std::array<double, 16> dy;
+};
+
+/// The functions along one axis.
+struct BsplineAxis {
+  double low;
+  double step;
+  Index columns;  ///< three more than intervals
 };
 
 /// Immutable, thread safe; `at` allocates nothing.
@@ -37,9 +42,9 @@ class BsplineBasis {
   /// Throws std::invalid_argument unless the rectangle has a finite positive area and nx, ny >= 1.
   BsplineBasis(const Rectangle& rectangle, int nx, int ny);
 
-  Index size() const { return columns_x_ * columns_y_; }
-  Index columns_x() const { return columns_x_; }
-  Index columns_y() const { return columns_y_; }
+  Index size() const { return x_.columns * y_.columns; }
+  Index columns_x() const { return x_.columns; }
+  Index columns_y() const { return y_.columns; }
   const Rectangle& rectangle() const { return rectangle_; }
 
   BasisSupport at(double x, double y) const;
@@ -63,10 +68,7 @@ class BsplineBasis {
 
  private:
   Rectangle rectangle_;
-  Index columns_x_;
-  Index columns_y_;
-  double step_x_;
-  double step_y_;
+  BsplineAxis x_, y_;
 };
 
 }  // namespace chaintrue::interp

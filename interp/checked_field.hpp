@@ -21,7 +21,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "interp/eigen.hpp"
 #include "interp/pair_polynomial.hpp"
 
 namespace chaintrue::interp {
@@ -60,9 +59,9 @@ class CheckedField {
   };
   struct Level {
     double spacing;
-    std::unordered_map<std::uint64_t, std::optional<Value>> nodes;
-    std::unordered_map<std::uint64_t, Cell> cells;
-    std::uint64_t last_key = ~std::uint64_t{0};
+    std::unordered_map<std::int64_t, std::optional<Value>> nodes;
+    std::unordered_map<std::int64_t, Cell> cells;
+    std::int64_t last_key = 0;
     Cell* last = nullptr;
   };
   /// A cell that interpolates, and the place in it from 0 to 1.
@@ -73,12 +72,7 @@ class CheckedField {
   };
 
   Found find(double x, double y);
-  bool may_fill() const;
   void fill(Level& level, Cell& cell, std::int64_t column, std::int64_t row);
-  /// Each component at the sixteen nodes around a cell, (x, y).
-  std::optional<std::array<Matrix4d, 2>> nodes_around(Level& level, std::int64_t column,
-                                                      std::int64_t row);
-  std::optional<Value> evaluate(double x, double y);
 
   Function function_;
   Options options_;

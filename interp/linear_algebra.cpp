@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/linear_algebra.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-#include <cmath>
+#include <Eigen/Dense>
 #include <cstdlib>
-#include <stdexcept>
 #include <string_view>
-#include <vector>
 
 #include "interp/linear_algebra_kernels.hpp"
+#include "interp/require.hpp"
 
 namespace chaintrue::linear {
 
@@ -26,51 +18,39 @@ const kernels::Table* kernels::avx2_here() {
 }
 
 const kernels::Table& kernels::chosen() {
-  static const Table& best = []() -> const Table& {
+  static const Table* const best = [] {
     const char* const asked = std::getenv("CHAINTRUE_BASELINE");
     const bool is_baseline = asked != nullptr && std::string_view(asked) == "1";
-    const Table* const fast = is_baseline ? nullptr : avx2_here();
-    return fast != nullptr ? *fast : baseline;
+    return is_baseline || avx2_here() == nullptr ? &baseline : avx2_here();
   }();
-  return best;
+  return *best;
 }
 
 namespace {
 
 kernels::Input input(const Operand& a) {
-  const auto& stored = a.stored();
-  return {stored.data(), stored.rows(), stored.cols(), stored.outerStride(), a.is_transposed()};
+  const auto& stored = a.stored;
+  return {stored.data(), stored.rows(), stored.cols(), stored.outerStride(), a.is_transposed};
 }
 kernels::Output output(Eigen::Ref<MatrixXd> c) {
   return {c.data(), c.rows(), c.cols(), c.outerStride()};
 }
 
-void solve_triangle(const Operand& lower, Eigen::Ref<MatrixXd> x) {
-  if (lower.rows() != x.rows()) {
-    throw std::invalid_argument(fmt::format("{} equations of {} unknowns", x.rows(), lower.rows()));
-  }
-  if (x.size() > 0) kernels::chosen().solve_triangle(input(lower), output(x));
-}
-
 }  // namespace
 
 void add_product(Eigen::Ref<MatrixXd> c, double scale, const Operand& a, const Operand& b) {
-  if (c.rows() != a.rows() || c.cols() != b.columns() || a.columns() != b.rows() ||
-      (a.is_transposed() && b.is_transposed())) {
-    throw std::invalid_argument(fmt::format("a product {} x {} of {} x {} and {} x {}", c.rows(),
-                                            c.cols(), a.rows(), a.columns(), b.rows(),
-                                            b.columns()));
-  }
+  require(c.rows() == a.rows() && c.cols() == b.columns() && a.columns() == b.rows() &&
+              !(a.is_transposed && b.is_transposed),
+          "a product {} x {} of {} x {} and {} x {}", c.rows(), c.cols(), a.rows(), a.columns(),
+          b.rows(), b.columns());
   if (c.size() > 0 && a.columns() > 0) {
     kernels::chosen().add_product(output(c), scale, input(a), input(b));
   }
 }
 
 void add_outer(MatrixXd& c, double scale, const Operand& a) {
-  if (c.rows() != a.rows() || c.cols() != a.rows()) {
-    throw std::invalid_argument(
-        fmt::format("{} x {} and a square of {} x {}", c.rows(), c.cols(), a.rows(), a.rows()));
-  }
+  require(c.rows() == a.rows() && c.cols() == a.rows(), "{} x {} and a square of {} x {}", c.rows(),
+          c.cols(), a.rows(), a.rows());
   if (c.size() == 0 || a.columns() == 0) return;
   kernels::chosen().add_square(output(c), scale, input(a));
   for (Index k = 1; k < c.cols(); ++k) c.col(k).head(k) = c.row(k).head(k).transpose();
@@ -83,35 +63,28 @@ MatrixXd outer(const Operand& a, double diagonal) {
   return c;
 }
 
-MatrixXd carried(const Operand& a, const Operand& c) {
-  return product(product(a, c), transposed(a));
-}
-
 MatrixXd scaled_columns(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const VectorXd>& s) {
   return a * s.asDiagonal();
 }
 
-Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
-  if (lower_.rows() != lower_.cols())
-    throw std::invalid_argument(
-        fmt::format("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols()));
-  if (lower_.size() == 0) return;
-  is_positive_definite_ = kernels::chosen().factorise(output(lower_));
-  for (Index k = 0; k < lower_.cols(); ++k) {
-    is_positive_definite_ =
-        is_positive_definite_ && std::isfinite(lower_(k, k)) && lower_(k, k) > 0.0;
-    lower_.col(k).head(k).setZero();
-  }
+void solve_triangle(const Operand& lower, Eigen::Ref<MatrixXd> x) {
+  require(lower.rows() == x.rows(), "{} equations of {} unknowns", x.rows(), lower.rows());
+  if (x.size() > 0) kernels::chosen().solve_triangle(input(lower), output(x));
 }
 
-void Cholesky::half_solve_in_place(Eigen::Ref<MatrixXd> b) const { solve_triangle(lower_, b); }
-void Cholesky::other_half_solve_in_place(Eigen::Ref<MatrixXd> b) const {
-  solve_triangle(transposed(lower_), b);
+Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
+  require(lower_.rows() == lower_.cols(), "a symmetric matrix of {} x {}", lower_.rows(),
+          lower_.cols());
+  if (lower_.size() == 0) return;
+  is_positive_definite_ = kernels::chosen().factorise(output(lower_)) &&
+                          lower_.diagonal().allFinite() && (lower_.diagonal().array() > 0.0).all();
+  lower_.triangularView<Eigen::StrictlyUpper>().setZero();
 }
+
 MatrixXd Cholesky::inverse() const { return solve(MatrixXd::Identity(size(), size())); }
 MatrixXd Cholesky::root_of_inverse() const {
   MatrixXd x = MatrixXd::Identity(size(), size());
-  other_half_solve_in_place(x);
+  solve_triangle(transposed(lower_), x);
   return x;
 }
 double Cholesky::log_det() const { return 2.0 * lower_.diagonal().array().log().sum(); }
@@ -126,14 +99,9 @@ MatrixXd PivotedCholesky::inverse() const {
 
 MatrixXd PivotedCholesky::root(double least) const {
   const VectorXd pivots = factor_->vectorD();
-  std::vector<Index> columns;
-  for (Index k = 0; k < pivots.size(); ++k) {
-    if (pivots[k] > least) columns.push_back(k);
-  }
+  const VectorXd scale = (pivots.array() > least).select(pivots.cwiseSqrt(), 0.0);
   const MatrixXd lower = factor_->matrixL();
-  const VectorXd scale = pivots(columns).cwiseSqrt();
-  const MatrixXd kept = lower(Eigen::all, columns);
-  return factor_->transpositionsP().transpose() * scaled_columns(kept, scale);
+  return factor_->transpositionsP().transpose() * scaled_columns(lower, scale);
 }
 
 SymmetricEigen::SymmetricEigen(const MatrixXd& matrix) {
@@ -160,30 +128,32 @@ Tridiagonal::Tridiagonal(MatrixXd matrix)
 }
 
 void Tridiagonal::rotate_in_place(MatrixXd& x) const {
-  if (x.rows() != reflections_.rows())
-    throw std::invalid_argument(
-        fmt::format("{} rows to rotate, of {}", x.rows(), reflections_.rows()));
+  require(x.rows() == reflections_.rows(), "{} rows to rotate, of {}", x.rows(),
+          reflections_.rows());
   if (x.size() == 0) return;
   kernels::chosen().rotate(input(reflections_), coefficients_.data(), output(x));
 }
 
+namespace {
+
+using Householder = Eigen::HouseholderQR<MatrixXd>;
+
+MatrixXd triangle_of(const Householder& factor) {
+  return factor.matrixQR().topRows(factor.cols()).triangularView<Eigen::Upper>();
+}
+
+}  // namespace
+
 Qr qr(const MatrixXd& a) {
-  const Eigen::HouseholderQR<MatrixXd> factor(a);
-  return {factor.householderQ(),
-          factor.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>()};
+  const Householder factor(a);
+  return {factor.householderQ(), triangle_of(factor)};
 }
 
 MatrixXd orthonormal_columns(const MatrixXd& a) {
-  if (a.size() == 0) return MatrixXd::Zero(a.rows(), a.cols());
-  return Eigen::HouseholderQR<MatrixXd>(a).householderQ() * MatrixXd::Identity(a.rows(), a.cols());
+  return Householder(a).householderQ() * MatrixXd::Identity(a.rows(), a.cols());
 }
 
-MatrixXd upper_triangle(const MatrixXd& a) {
-  return Eigen::HouseholderQR<MatrixXd>(a)
-      .matrixQR()
-      .topRows(a.cols())
-      .triangularView<Eigen::Upper>();
-}
+MatrixXd upper_triangle(const MatrixXd& a) { return triangle_of(Householder(a)); }
 
 Range range_of(const MatrixXd& a, double least) {
   Eigen::ColPivHouseholderQR<MatrixXd> factor(a);

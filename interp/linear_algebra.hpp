@@ -5,7 +5,7 @@
 /// through these functions, which take the instructions of the processor at hand
 /// (linear_algebra_kernels.hpp).
 ///
-///   const linear::Cholesky noise(linear::one_plus_outer(scaled));       // 1 + S S' = L L'
+///   const linear::Cholesky noise(linear::outer(scaled, 1.0));           // 1 + S S' = L L'
 ///   noise.half_solve_in_place(design);                                  // L^-1 design
 ///   const Eigen::MatrixXd normal = linear::one_plus_gram(design);       // 1 + A'A
 ///   const Eigen::VectorXd right = linear::inner(design, data);
@@ -21,30 +21,24 @@
 namespace chaintrue::linear {
 
 /// An argument: a matrix or vector, or the transpose of one. Lives as long as what it refers to.
-class Operand {
- public:
+struct Operand {
   template <class Derived>
-  Operand(const Eigen::DenseBase<Derived>& m) : stored_(m.derived()) {}
+  Operand(const Eigen::DenseBase<Derived>& m) : stored(m.derived()) {}
+  Index rows() const { return is_transposed ? stored.cols() : stored.rows(); }
+  Index columns() const { return is_transposed ? stored.rows() : stored.cols(); }
 
-  const Eigen::Ref<const MatrixXd>& stored() const { return stored_; }
-  bool is_transposed() const { return is_transposed_; }
-  Index rows() const { return is_transposed_ ? stored_.cols() : stored_.rows(); }
-  Index columns() const { return is_transposed_ ? stored_.rows() : stored_.cols(); }
-  friend Operand transposed(const Operand& a) {
-    Operand result = a;
-    result.is_transposed_ = !a.is_transposed_;
-    return result;
-  }
-
- private:
-  Eigen::Ref<const MatrixXd> stored_;
-  bool is_transposed_ = false;
+  Eigen::Ref<const MatrixXd> stored;
+  bool is_transposed = false;
 };
-Operand transposed(const Operand& a);
+inline Operand transposed(const Operand& a) {
+  Operand result = a;
+  result.is_transposed = !a.is_transposed;
+  return result;
+}
 
 template <class B>
 concept VectorLike = B::ColsAtCompileTime == 1;
-/// A vector for a vector, a matrix for a matrix.
+/// A vector for a vector, a matrix for a matrix or an operand.
 template <class B>
 using Like = Eigen::Matrix<double, Eigen::Dynamic, VectorLike<B> ? 1 : Eigen::Dynamic>;
 
@@ -71,16 +65,19 @@ inline void add_gram(MatrixXd& c, double scale, const Operand& a) {
 }
 /// diagonal + A A'
 MatrixXd outer(const Operand& a, double diagonal = 0.0);
-/// 1 + A A'
-inline MatrixXd one_plus_outer(const Operand& a) { return outer(a, 1.0); }
 /// A'A
 inline MatrixXd gram(const Operand& a) { return outer(transposed(a)); }
 /// 1 + A'A
 inline MatrixXd one_plus_gram(const Operand& a) { return outer(transposed(a), 1.0); }
 /// A C A'
-MatrixXd carried(const Operand& a, const Operand& c);
+inline MatrixXd carried(const Operand& a, const Operand& c) {
+  return product(product(a, c), transposed(a));
+}
 /// A diag(s)
 MatrixXd scaled_columns(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const VectorXd>& s);
+
+/// x = L^-1 x of a lower triangle or its transpose
+void solve_triangle(const Operand& lower, Eigen::Ref<MatrixXd> x);
 
 /// M = L L' of a symmetric positive definite matrix; only the lower triangle is read.
 class Cholesky {
@@ -95,7 +92,7 @@ class Cholesky {
   template <class B>
   Like<B> solve(const B& b) const {
     Like<B> x = half_solve(b);
-    other_half_solve_in_place(x);
+    solve_triangle(transposed(lower_), x);
     return x;
   }
   /// L^-1 b
@@ -105,7 +102,7 @@ class Cholesky {
     half_solve_in_place(x);
     return x;
   }
-  void half_solve_in_place(Eigen::Ref<MatrixXd> b) const;
+  void half_solve_in_place(Eigen::Ref<MatrixXd> b) const { solve_triangle(lower_, b); }
   /// M^-1
   MatrixXd inverse() const;
   /// L^-T: a square root of M^-1.
@@ -116,9 +113,6 @@ class Cholesky {
   double log_det() const;
 
  private:
-  /// L^-T b
-  void other_half_solve_in_place(Eigen::Ref<MatrixXd> b) const;
-
   MatrixXd lower_;
   bool is_positive_definite_ = true;
 };
@@ -134,7 +128,7 @@ class PivotedCholesky {
     return solved(b);
   }
   MatrixXd inverse() const;
-  /// F with F F' = M, without the columns whose D is at most `least`.
+  /// A square F with F F' = M, its columns zero whose D is at most `least`.
   MatrixXd root(double least) const;
 
  private:

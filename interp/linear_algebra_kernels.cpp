@@ -22,30 +22,13 @@ Matrix stored(const Output& a) { return {a.data, a.rows, a.columns, Columns(a.st
 /// Below this sum of dimensions packing costs more than it saves.
 constexpr std::ptrdiff_t kFew = 20;
 
-/// Indexes the operand, not its storage.
-struct Entries {
-  explicit Entries(const Input& a)
-      : data(a.data),
-        rows(a.transposed ? a.columns : a.rows),
-        columns(a.transposed ? a.rows : a.columns),
-        by_row(a.transposed ? a.stride : 1),
-        by_column(a.transposed ? 1 : a.stride) {}
-  double operator()(std::ptrdiff_t i, std::ptrdiff_t k) const {
-    return data[i * by_row + k * by_column];
-  }
-  const double* data;
-  std::ptrdiff_t rows, columns, by_row, by_column;
-};
-
-/// c += scale a b, from the diagonal on down where c is symmetric.
-void add_few(Output c, double scale, const Entries& a, const Entries& b, bool symmetric) {
-  for (std::ptrdiff_t j = 0; j < c.columns; ++j) {
-    for (std::ptrdiff_t i = symmetric ? j : 0; i < c.rows; ++i) {
-      double sum = 0.0;
-      for (std::ptrdiff_t k = 0; k < a.columns; ++k) sum += a(i, k) * b(k, j);
-      c.data[i + j * c.stride] += scale * sum;
-    }
-  }
+/// Addresses the operand, not its storage. Eigen reads such numbers one by one, so that a product of
+/// them sums in the same order wherever they lie.
+using Entries = Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned,
+                           Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>;
+Entries entries(const Input& a) {
+  if (a.transposed) return {a.data, a.columns, a.rows, {1, a.stride}};
+  return {a.data, a.rows, a.columns, {a.stride, 1}};
 }
 
 /// Eigen's own entry for products that are not small: it scales without a temporary, and takes one
@@ -58,9 +41,9 @@ void add_many(Output c, double scale, const Left& a, const Right& b) {
 }
 
 void add_product(Output c, double scale, Input a, Input b) {
-  const Entries left(a);
-  if (c.rows + c.columns + left.columns < kFew) {
-    add_few(c, scale, left, Entries(b), false);
+  const Entries left = entries(a);
+  if (c.rows + c.columns + left.cols() < kFew) {
+    stored(c) += scale * left.lazyProduct(entries(b));
   } else if (a.transposed) {
     add_many(c, scale, stored(a).transpose(), stored(b));
   } else if (b.transposed) {
@@ -71,15 +54,11 @@ void add_product(Output c, double scale, Input a, Input b) {
 }
 
 void add_square(Output c, double scale, Input a) {
-  const Entries left(a);
-  if (2 * c.rows + left.columns < kFew) {
-    Input b = a;
-    b.transposed = !a.transposed;
-    add_few(c, scale, left, Entries(b), true);
-    return;
-  }
+  const Entries left = entries(a);
   Matrix sum = stored(c);
-  if (a.transposed) {
+  if (2 * c.rows + left.cols() < kFew) {
+    sum += scale * left.lazyProduct(left.transpose());
+  } else if (a.transposed) {
     sum.selfadjointView<Eigen::Lower>().rankUpdate(stored(a).transpose(), scale);
   } else {
     sum.selfadjointView<Eigen::Lower>().rankUpdate(stored(a), scale);

@@ -12,18 +12,14 @@ namespace chaintrue::linear::kernels {
 
 /// Column major, `stride` numbers from one column to the next.
 struct Input {
-  const double* data = nullptr;
-  std::ptrdiff_t rows = 0;
-  std::ptrdiff_t columns = 0;
-  std::ptrdiff_t stride = 0;
-  bool transposed = false;  ///< means its transpose; rows and columns are as stored
+  const double* data;
+  std::ptrdiff_t rows, columns, stride;
+  bool transposed;  ///< means its transpose; rows and columns are as stored
 };
 
 struct Output {
-  double* data = nullptr;
-  std::ptrdiff_t rows = 0;
-  std::ptrdiff_t columns = 0;
-  std::ptrdiff_t stride = 0;
+  double* data;
+  std::ptrdiff_t rows, columns, stride;
 };
 
 struct Table {

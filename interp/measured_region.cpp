@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include <fmt/format.h>
+#include "interp/require.hpp"
 
 namespace chaintrue::interp {
 namespace {
@@ -14,18 +13,18 @@ double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-double along(const PlanePoint& direction, const ValueGradient& z) {
-  return direction.x * z.dx + direction.y * z.dy;
-}
+Vector2d vector(const PlanePoint& p) { return {p.x, p.y}; }
+
+Vector2d slope_of(const ValueGradient& z) { return {z.dx, z.dy}; }
 
 // How much the slope along near.direction changes with the foot point's way along the edge, by a
 // central difference.
-double turn(const Surface& surface, const NearestPoint& near, const PlanePoint& tangent) {
+double turn(const Surface& surface, const NearestPoint& near, const Vector2d& tangent) {
   const Rectangle domain = surface.domain();
   const double step = 1e-4 * std::max(domain.width(), domain.height());
   const auto outward_at = [&](double s) {
-    return along(near.direction,
-                 surface.at(near.point.x + s * tangent.x, near.point.y + s * tangent.y));
+    const Vector2d at = near.point + s * tangent;
+    return near.direction.dot(slope_of(surface.at(at.x(), at.y())));
   };
   return (outward_at(step) - outward_at(-step)) / (2.0 * step);
 }
@@ -35,72 +34,50 @@ double turn(const Surface& surface, const NearestPoint& near, const PlanePoint& 
 ConvexHull::ConvexHull(const std::vector<PlanePoint>& points) {
   std::vector<PlanePoint> sorted = points;
   for (const PlanePoint& p : sorted) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-      throw std::invalid_argument(fmt::format("a point of the region is ({}, {})", p.x, p.y));
-    }
+    require(std::isfinite(p.x) && std::isfinite(p.y), "a point of the region is ({}, {})", p.x,
+            p.y);
   }
   std::sort(sorted.begin(), sorted.end(), [](const PlanePoint& a, const PlanePoint& b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
   });
-  const auto half = [this](auto begin, auto end) {
+  for (int half = 0; half < 2 && !sorted.empty(); ++half) {
     const std::size_t base = corners_.size();
-    for (auto it = begin; it != end; ++it) {
-      while (corners_.size() >= base + 2 &&
-             cross(corners_[corners_.size() - 2], corners_.back(), *it) <= 0.0) {
+    for (const PlanePoint& p : sorted) {
+      while (corners_.size() >= base + 2 && cross(corners_.end()[-2], corners_.back(), p) <= 0.0)
         corners_.pop_back();
-      }
-      corners_.push_back(*it);
+      corners_.push_back(p);
     }
     corners_.pop_back();  // the other half starts with it
-  };
-  if (sorted.size() >= 3) {
-    half(sorted.begin(), sorted.end());
-    half(sorted.rbegin(), sorted.rend());
+    std::reverse(sorted.begin(), sorted.end());
   }
-  const double span = sorted.empty() ? 0.0
-                                     : std::hypot(sorted.back().x - sorted.front().x,
-                                                  sorted.back().y - sorted.front().y);
-  if (corners_.size() < 3 || !(area() > 1e-12 * span * span)) {
-    throw std::invalid_argument(
-        fmt::format("{} points on one line enclose no region", points.size()));
-  }
+  const double span =
+      sorted.empty() ? 0.0 : (vector(sorted.back()) - vector(sorted.front())).norm();
+  require(area() > 1e-12 * span * span, "{} points on one line enclose no region", points.size());
 }
 
 bool ConvexHull::contains(double x, double y) const {
-  const PlanePoint p{x, y};
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (!(cross(corners_[i], corners_[(i + 1) % corners_.size()], p) >= 0.0)) {
-      return false;
-    }
+    if (!(cross(corners_[i], corners_[(i + 1) % corners_.size()], {x, y}) >= 0.0)) return false;
   }
   return true;
 }
 
 NearestPoint ConvexHull::nearest(double x, double y) const {
-  NearestPoint best{{x, y}, 0.0, {0.0, 0.0}, false};
-  if (contains(x, y)) {
-    return best;
-  }
+  const Vector2d at(x, y);
+  NearestPoint best{at, 0.0, Vector2d::Zero(), false};
+  if (contains(x, y)) return best;
   best.distance = HUGE_VAL;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const PlanePoint& a = corners_[i];
-    const PlanePoint& b = corners_[(i + 1) % corners_.size()];
-    const double ex = b.x - a.x;
-    const double ey = b.y - a.y;
-    const double s = ((x - a.x) * ex + (y - a.y) * ey) / (ex * ex + ey * ey);
-    const double t = std::clamp(s, 0.0, 1.0);
-    const PlanePoint foot{a.x + t * ex, a.y + t * ey};
-    const double distance = std::hypot(x - foot.x, y - foot.y);
-    if (distance < best.distance) {
-      best = {foot, distance, {}, s > 0.0 && s < 1.0};
-      if (best.on_edge) {
-        // The edge's own normal: the difference of two nearby points has no significant digits.
-        const double length = std::hypot(ex, ey);
-        best.direction = {ey / length, -ex / length};
-      } else if (distance > 0.0) {
-        best.direction = {(x - foot.x) / distance, (y - foot.y) / distance};
-      }
-    }
+    const Vector2d from = vector(corners_[i]);
+    const Vector2d edge = vector(corners_[(i + 1) % corners_.size()]) - from;
+    const double s = (at - from).dot(edge) / edge.squaredNorm();
+    const Vector2d foot = from + std::clamp(s, 0.0, 1.0) * edge;
+    const double distance = (at - foot).norm();
+    if (!(distance < best.distance)) continue;
+    const bool on_edge = s > 0.0 && s < 1.0;
+    // The edge's own normal: the difference of two nearby points has no significant digits.
+    const Vector2d outward = on_edge ? Vector2d(edge.y(), -edge.x()) : at - foot;
+    best = {foot, distance, outward.normalized(), on_edge};
   }
   return best;
 }
@@ -115,29 +92,29 @@ double ConvexHull::area() const {
 
 ValueGradient evaluate(const Surface& surface, const ConvexHull& hull, const RegionPolicy& policy,
                        const PlanePoint& at) {
-  if (!(policy.edge_width >= 0.0) || !(policy.fade_width > 0.0)) {
-    throw std::invalid_argument(
-        fmt::format("an edge of width {} and a fade of {}", policy.edge_width, policy.fade_width));
-  }
+  require(policy.edge_width >= 0.0 && policy.fade_width > 0.0,
+          "an edge of width {} and a fade of {}", policy.edge_width, policy.fade_width);
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return {};
   const NearestPoint near = hull.nearest(at.x, at.y);
   if (near.distance == 0.0) return surface.at(at.x, at.y);
   const bool is_clamped = policy.outside == OutsidePolicy::clamp;
-  const PlanePoint& n = near.direction;
-  const PlanePoint t{-n.y, n.x};
-  const ValueGradient foot = surface.at(near.point.x, near.point.y);
-  const double outward = is_clamped ? 0.0 : along(n, foot);
+  const Vector2d& n = near.direction;
+  const Vector2d t(-n.y(), n.x());
+  const ValueGradient foot = surface.at(near.point.x(), near.point.y());
+  const double outward = is_clamped ? 0.0 : n.dot(slope_of(foot));
   // From a corner the foot does not move: the direction turns instead.
-  double across = is_clamped && !near.on_edge ? 0.0 : along(t, foot);
+  double across = is_clamped && !near.on_edge ? 0.0 : t.dot(slope_of(foot));
   if (!is_clamped && near.on_edge) across += near.distance * turn(surface, near, t);
-  const ValueGradient z{foot.value + near.distance * outward, outward * n.x + across * t.x,
-                        outward * n.y + across * t.y};
-  if (policy.outside != OutsidePolicy::fade) return z;
-  const double s = std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
-  const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
-  const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
-  return {weight * z.value, weight * z.dx + fall * n.x * z.value,
-          weight * z.dy + fall * n.y * z.value};
+  double value = foot.value + near.distance * outward;
+  Vector2d slope = outward * n + across * t;
+  if (policy.outside == OutsidePolicy::fade) {
+    const double s = std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
+    const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
+    const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
+    slope = weight * slope + fall * value * n;
+    value *= weight;
+  }
+  return {value, slope.x(), slope.y()};
 }
 
 }  // namespace chaintrue::interp

@@ -9,16 +9,17 @@
 
 #include <vector>
 
+#include "interp/eigen.hpp"
 #include "interp/surface.hpp"
 
 namespace chaintrue::interp {
 
 /// The nearest point of a region and its distance.
 struct NearestPoint {
-  PlanePoint point;
-  double distance;       ///< 0 inside
-  PlanePoint direction;  ///< unit vector from `point` outward; zero inside
-  bool on_edge;          ///< inside of an edge rather than at a corner
+  Vector2d point;
+  double distance;     ///< 0 inside
+  Vector2d direction;  ///< unit vector from `point` outward; zero inside
+  bool on_edge;        ///< inside of an edge rather than at a corner
 };
 
 /// A convex polygon, counterclockwise. Immutable.

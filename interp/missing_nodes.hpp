@@ -23,9 +23,7 @@
 namespace chaintrue::interp {
 
 struct FilledNode {
-  Index ix;
-  Index iy;
-  double value;
+  Index ix, iy;
   double doubt;    ///< error of the nearer of the two lines; 0 if filled by one line
   double by_line;  ///< value of the line with more nodes present
 };

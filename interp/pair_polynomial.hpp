@@ -13,9 +13,7 @@ namespace chaintrue::interp {
 
 /// Values and gradients of two surfaces at one point.
 struct PairGradient {
-  std::array<double, 2> value;
-  std::array<double, 2> dx;
-  std::array<double, 2> dy;
+  std::array<double, 2> value, dx, dy;
 };
 
 /// The matrix that takes values at four places to the powers of the cubic through them.
@@ -27,9 +25,10 @@ class alignas(64) PairPolynomial {
  public:
   /// powers(i, j) is the coefficient of u^i v^j.
   void set(std::size_t surface, const Matrix4d& powers) {
-    for (std::size_t at = 0; at < 16; ++at)
-      c_[8 * (at / 4) + 2 * (at % 4) + surface] =
-          powers(static_cast<Index>(at / 4), static_cast<Index>(at % 4));
+    double* const c = c_.data() + surface;
+    for (Index i = 0; i < 4; ++i) {
+      for (Index j = 0; j < 4; ++j) c[8 * i + 2 * j] = powers(i, j);
+    }
   }
 
   /// At u and v, which rise by `per_x` and `per_y` with each unit of x and y.
@@ -37,8 +36,7 @@ class alignas(64) PairPolynomial {
                                                     double per_y) const {
     // Horner's rule for the polynomial in u of each power of v of both surfaces: eight parallel
     // loops that the compiler vectorises.
-    std::array<double, 8> p;
-    std::array<double, 8> slope;
+    std::array<double, 8> p, slope;
     for (std::size_t l = 0; l < 8; ++l) {
       const double a = c_[24 + l] * u + c_[16 + l];
       const double b = a * u + c_[8 + l];

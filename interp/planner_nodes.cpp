@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/planner_nodes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include <fmt/format.h>
+#include "interp/require.hpp"
 
 namespace chaintrue::interp {
 
 std::vector<double> chebyshev_lobatto(double low, double high, int count) {
-  if (!(low < high) || count < 2) {
-    throw std::invalid_argument(
-        fmt::format("{} Chebyshev-Lobatto nodes from {} to {}", count, low, high));
-  }
+  require(low < high && count >= 2, "{} Chebyshev-Lobatto nodes from {} to {}", count, low, high);
   const double middle = 0.5 * (low + high);
   const double half = 0.5 * (high - low);
-  std::vector<double> nodes(static_cast<std::size_t>(count), middle);
-  for (int i = 0; i < count / 2; ++i) {
+  std::vector<double> nodes;
+  for (int i = 0; i < count; ++i) {
     // The sine of an angle from the middle is odd to the last bit; the cosine from one end is not.
-    const double offset =
-        half * std::sin(std::numbers::pi * (count - 1 - 2 * i) / (2.0 * (count - 1)));
-    nodes[static_cast<std::size_t>(i)] = middle - offset;
-    nodes[static_cast<std::size_t>(count - 1 - i)] = middle + offset;
+    const double angle = std::numbers::pi * (2 * i - (count - 1)) / (2.0 * (count - 1));
+    nodes.push_back(middle + half * std::sin(angle));
   }
   nodes.front() = low;
   nodes.back() = high;
@@ -31,20 +24,16 @@ std::vector<double> chebyshev_lobatto(double low, double high, int count) {
 }
 
 GridShape grid_shape(double width, double height, int points) {
-  if (!(width > 0.0) || !(height > 0.0) || points < 4) {
-    throw std::invalid_argument(
-        fmt::format("a grid of {} points over {} x {}", points, width, height));
-  }
-  const auto badness = [&](const GridShape& s) {
-    return std::abs(std::log((width / (s.columns - 1)) / (height / (s.rows - 1))));
-  };
+  require(width > 0.0 && height > 0.0 && points >= 4, "a grid of {} points over {} x {}", points,
+          width, height);
   GridShape best{2, 2};
   double best_score = -1e300;
   for (int columns = 2; 2 * columns <= points; ++columns) {
     const GridShape shape{columns, points / columns};
     // Spacings 10 % apart cost as much as 5 % of the points.
-    const double used = static_cast<double>(shape.columns * shape.rows) / points;
-    const double score = used - 0.5 * badness(shape);
+    const double used = 1.0 * shape.columns * shape.rows / points;
+    const double aspect = (width / (columns - 1)) / (height / (shape.rows - 1));
+    const double score = used - 0.5 * std::abs(std::log(aspect));
     if (score > best_score) {
       best_score = score;
       best = shape;

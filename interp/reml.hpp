@@ -14,7 +14,7 @@
 ///   b        q coefficients
 ///   S0, b0   prior precision and mean of the p columns outside the ridge, S0 singular where
 ///            nothing is known beforehand
-///   J        1 on the diagonal of the m ridge columns, 0 elsewhere
+///   J        1 on the diagonal of the m ridge columns, the last ones, 0 elsewhere
 ///   lambda   the ridge's unknown precision, > 0
 ///   A        X'X / sigma2 + S0 + lambda J, the posterior precision of b
 ///   V        minus twice the restricted log likelihood, up to a constant:
@@ -46,12 +46,11 @@
 
 namespace chaintrue::interp {
 
-/// The columns first .. first + count - 1; none where count is 0.
+/// The last `count` columns; none where count is 0.
 struct Ridge {
-  Index first = 0;
   Index count = 0;
-  /// The lambda that the search is centred on; 0 chooses the one at which the ridge weighs as much
-  /// as X'X.
+  /// The lambda that the search is centred on, about that at which the ridge weighs as much as X'X:
+  /// the mean of its columns' squares. > 0
   double balance = 0.0;
 };
 
@@ -71,10 +70,13 @@ struct NoiseScale {
 ///
 ///     PenalisedProblem problem(q);
 ///     problem.add_rows(design, response);          // whitened
-///     problem.ridge = {0, m};
+///     problem.ridge = {m, design.rightCols(m).squaredNorm() / m};
 ///     auto fit = fit_penalised(problem);
 struct PenalisedProblem {
-  explicit PenalisedProblem(Index columns);
+  explicit PenalisedProblem(Index columns)
+      : design(MatrixXd::Zero(0, columns)),
+        prior_precision(MatrixXd::Zero(columns, columns)),
+        prior_mean(VectorXd::Zero(columns)) {}
 
   void add_rows(const Eigen::Ref<const MatrixXd>& x, const Eigen::Ref<const VectorXd>& y);
   /// `count` rows known by [X y]'[X y]: q + 1 others with these products stand for them. Squaring
@@ -92,15 +94,13 @@ struct PenalisedProblem {
   NoiseScale noise;
 };
 
-/// Why a fit has no result.
-enum class FitReason {
-  rank_deficient,  ///< data, priors and ridge together leave a combination of columns free
-  not_converged,   ///< the search for the smoothing did not converge
-};
-/// Has the shape of model's Failure, which interp may not include.
+/// Why a fit has no result. Has the shape of model's Failure, which interp may not include.
 struct FitFailure {
-  using Reason = FitReason;
-  FitReason reason;
+  enum class Reason {
+    rank_deficient,  ///< data, priors and ridge together leave a combination of columns free
+    not_converged,   ///< the search for the smoothing did not converge
+  };
+  Reason reason;
   std::string text;
   const std::string& sentence() const { return text; }
 };

@@ -40,14 +40,13 @@ struct AxisEnds {
 struct SplineSupport {
   Index first;
   Index count;
-  Eigen::Matrix<double, 6, 1> value;  ///< the first `count` of them
-  Eigen::Matrix<double, 6, 1> slope;
+  Eigen::Vector<double, 6> value, slope;  ///< the first `count` of them
 };
 
 /// One axis with its ends. Immutable; safe to share between threads.
 ///
 ///     SplineAxis axis({0.0, 1.0, 3.0, 4.0});
-///     Vector4d weights = axis.cardinal_weights(2.5);   // spline(2.5) = weights . f
+///     auto weights = axis.cardinal_weights(2.5);   // spline(2.5) = weights.col(0) . f
 class SplineAxis {
  public:
   /// A quintic's ends are not-a-knot. Throws std::invalid_argument for others, and unless there are
@@ -60,19 +59,18 @@ class SplineAxis {
   /// Beyond the ends the polynomials of the end cells continue.
   SplineSupport support(double x) const;
 
-  /// Coefficients of the splines through each column of `conditions`: the values at the nodes, then the slopes at
-  /// the low and the high end, which count where these are clamped.
-  MatrixXd coefficients(const Eigen::Ref<const MatrixXd>& conditions) const;
+  /// The coefficients of a spline are this times its conditions: the values at the nodes, then the
+  /// slopes at the low and the high end, which count where these are clamped.
+  const MatrixXd& solution() const { return solution_; }
 
-  /// The spline at x, or its slope there, as weights on the node values (clamped ends: slope zero).
-  VectorXd cardinal_weights(double x) const;
-  VectorXd slope_weights(double x) const;
+  /// The spline at x and its slope there as weights on the node values, a column each (clamped ends:
+  /// slope zero).
+  Eigen::MatrixX2d cardinal_weights(double x) const;
 
  private:
   std::vector<double> nodes_;
   int degree_;
   std::vector<double> knots_;  // degree + 1 times each end
-  /// The coefficients are this times the conditions.
   MatrixXd solution_;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/spline_pair.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <Eigen/LU>
+
+#include "interp/require.hpp"
 
 // A point is evaluated with AVX2 where the processor has it; contraction to fused multiply-add is off,
 // so both ways give the same bits.
@@ -18,10 +18,6 @@
 
 namespace chaintrue::interp {
 namespace {
-
-bool have_same_nodes(const SplineAxis& a, const SplineAxis& b) {
-  return std::equal(a.nodes().begin(), a.nodes().end(), b.nodes().begin(), b.nodes().end());
-}
 
 // The splines that do not vanish in a cell.
 struct SplinesInCell {
@@ -40,7 +36,7 @@ std::vector<SplinesInCell> splines_in_cells(const SplineAxis& axis) {
     Matrix4d values;
     for (Index k = 0; k < 4; ++k) {
       const SplineSupport s = axis.support(nodes[i] + places[k] * (nodes[i + 1] - nodes[i]));
-      if (s.count != 4) throw std::invalid_argument("a pair of splines that are not bicubic");
+      require(s.count == 4, "a pair of splines that are not bicubic");
       cell.first = s.first;
       values.row(k) = s.value.head<4>();
     }
@@ -54,14 +50,14 @@ std::vector<SplinesInCell> splines_in_cells(const SplineAxis& axis) {
 
 Matrix4d powers_through(const Vector4d& places) {
   Matrix4d powers;
-  for (Index i = 0; i < 4; ++i) powers.col(i) = places.array().pow(static_cast<double>(i));
+  for (int i = 0; i < 4; ++i) powers.col(i) = places.array().pow(i);
   return powers.inverse();
 }
 
 SplinePair::Axis::Axis(std::span<const double> nodes)
     : first(nodes.front()),
-      per_mean_length(static_cast<double>(nodes.size() - 1) / (nodes.back() - nodes.front())),
-      last(static_cast<double>(nodes.size() - 2)) {
+      last(static_cast<double>(nodes.size() - 2)),
+      per_mean_length((last + 1.0) / (nodes.back() - first)) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     intervals.push_back({nodes[i], 1.0 / (nodes[i + 1] - nodes[i])});
     // Decimal nodes are off by their rounding; 1e-12 of the axis is negligible.
@@ -72,19 +68,16 @@ SplinePair::Axis::Axis(std::span<const double> nodes)
 
 SplinePair::SplinePair(const TensorSpline& first, const TensorSpline& second)
     : x_(first.axes().x.nodes()), y_(first.axes().y.nodes()) {
-  if (!have_same_nodes(first.axes().x, second.axes().x) ||
-      !have_same_nodes(first.axes().y, second.axes().y)) {
-    throw std::invalid_argument("a pair of splines needs both on the same axes");
-  }
-  cells_.resize(x_.intervals.size() * y_.intervals.size());
-  const TensorSpline* const splines[] = {&first, &second};
-  for (std::size_t k = 0; k < 2; ++k) {
-    auto cell = cells_.begin();
-    const auto along_x = splines_in_cells(splines[k]->axes().x);
-    for (const SplinesInCell& y : splines_in_cells(splines[k]->axes().y)) {
-      for (const SplinesInCell& x : along_x) {
-        const auto c = splines[k]->coefficients().block<4, 4>(x.first, y.first);
-        cell++->set(k, x.powers * c * y.powers.transpose());
+  require(&first.axes() == &second.axes(), "a pair of splines needs both on the same axes");
+  const auto along_x = splines_in_cells(first.axes().x);
+  cells_.reserve(x_.intervals.size() * y_.intervals.size());
+  for (const SplinesInCell& y : splines_in_cells(first.axes().y)) {
+    for (const SplinesInCell& x : along_x) {
+      PairPolynomial& cell = cells_.emplace_back();
+      std::size_t surface = 0;
+      for (const TensorSpline* spline : {&first, &second}) {
+        const auto c = spline->coefficients().block<4, 4>(x.first, y.first);
+        cell.set(surface++, x.powers * c * y.powers.transpose());
       }
     }
   }
@@ -109,7 +102,7 @@ CHAINTRUE_CLONES PairGradient SplinePair::at(double x, double y) const {
   std::ptrdiff_t j = 0;
   const double u = x_.locate(x, i);
   const double v = y_.locate(y, j);
-  const auto columns = static_cast<std::ptrdiff_t>(x_.intervals.size());
+  const auto columns = std::ssize(x_.intervals);
   return cells_.data()[j * columns + i].at(u, v, x_.intervals.data()[i].per_length,
                                            y_.intervals.data()[j].per_length);
 }

@@ -18,11 +18,12 @@ namespace chaintrue::interp {
 
 /// Immutable, thread safe; only the constructor allocates. Coordinates must be finite.
 ///
-///     const SplinePair chains(left, right);
+///     const auto axes = std::make_shared<const TensorAxes>(x_nodes, y_nodes);
+///     const SplinePair chains({axes, left}, {axes, right});
 ///     const PairGradient here = chains.at(x, y);
 class SplinePair {
  public:
-  /// Throws std::invalid_argument unless both are bicubic and have the same nodes.
+  /// Throws std::invalid_argument unless both are bicubic and share their axes.
   SplinePair(const TensorSpline& first, const TensorSpline& second);
 
   PairGradient at(double x, double y) const;
@@ -37,8 +38,8 @@ class SplinePair {
     /// The interval (beyond the ends, the nearest one) and the place in it.
     [[gnu::always_inline]] double locate(double x, std::ptrdiff_t& index) const;
     double first;
+    double last;  // index of the last interval
     double per_mean_length;
-    double last;       // index of the last interval
     bool even = true;  // all intervals have the mean length
     std::vector<Interval> intervals;
   };

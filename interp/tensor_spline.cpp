@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/tensor_spline.hpp"
 
-#include <iterator>
-#include <stdexcept>
-
-#include <fmt/format.h>
+#include "interp/require.hpp"
 
 namespace chaintrue::interp {
 namespace {
 
-// Writes the slopes along one edge; they are zero where none are given.
-void set_edge(Eigen::Ref<VectorXd> edge, const VectorXd& slopes, const char* name) {
+// Writes the slopes across two edges; they are zero where none are given.
+void set_edges(Eigen::Ref<MatrixXd> edges, const MatrixXd& slopes, const char* axis) {
   if (slopes.size() == 0) return;
-  if (slopes.size() != edge.size()) {
-    throw std::invalid_argument(
-        fmt::format("slopes along the edge {}: {} given, its axis has {} nodes", name,
-                    slopes.size(), edge.size()));
-  }
-  if (!slopes.allFinite()) {
-    throw std::invalid_argument(fmt::format("slopes along the edge {} are not finite", name));
-  }
-  edge = slopes;
+  require(slopes.rows() == edges.rows() && slopes.cols() == edges.cols(),
+          "{} x {} slopes along {}, where the nodes need {} x {}", slopes.rows(), slopes.cols(),
+          axis, edges.rows(), edges.cols());
+  require(slopes.allFinite(), "a slope along {} is not finite", axis);
+  edges = slopes;
 }
 
 }  // namespace
@@ -34,33 +27,25 @@ TensorSpline::TensorSpline(std::vector<double> x_nodes, std::vector<double> y_no
 TensorSpline::TensorSpline(std::shared_ptr<const TensorAxes> axes,
                            const Eigen::Ref<const MatrixXd>& values, const EdgeSlopes& slopes)
     : axes_(std::move(axes)) {
-  const auto nx = std::ssize(axes_->x.nodes());
-  const auto ny = std::ssize(axes_->y.nodes());
-  if (values.rows() != nx || values.cols() != ny) {
-    throw std::invalid_argument(
-        fmt::format("{} x {} values for {} x {} nodes", values.rows(), values.cols(), nx, ny));
-  }
-  if (!values.allFinite()) {
-    throw std::invalid_argument("a value of the grid is not finite");
-  }
+  const auto x = axes_->x.nodes();
+  const Index nx = std::ssize(x);
+  const Index ny = std::ssize(axes_->y);
+  require(values.rows() == nx && values.cols() == ny, "{} x {} values for {} x {} nodes",
+          values.rows(), values.cols(), nx, ny);
+  require(values.allFinite(), "a value of the grid is not finite");
   // The conditions of both axes: values, slopes along the edges, and twists at the corners.
   MatrixXd conditions = MatrixXd::Zero(nx + 2, ny + 2);
   conditions.topLeftCorner(nx, ny) = values;
-  MatrixXd along_y = MatrixXd::Zero(ny, 2);
-  set_edge(along_y.col(0), slopes.x_low, "x_low");
-  set_edge(along_y.col(1), slopes.x_high, "x_high");
-  conditions.bottomLeftCorner(2, ny) = along_y.transpose();
-  set_edge(conditions.col(ny).head(nx), slopes.y_low, "y_low");
-  set_edge(conditions.col(ny + 1).head(nx), slopes.y_high, "y_high");
-  if (slopes.y_low.size() + slopes.y_high.size() > 0) {
-    const SplineAxis free_axis({axes_->x.nodes().begin(), axes_->x.nodes().end()});
+  set_edges(conditions.bottomLeftCorner(2, ny), slopes.x, "x");
+  set_edges(conditions.topRightCorner(nx, 2), slopes.y, "y");
+  if (slopes.y.size() > 0) {
+    const SplineAxis free_axis({x.begin(), x.end()});
     MatrixXd to_corners(nx, 2);
-    to_corners << free_axis.slope_weights(free_axis.nodes().front()),
-        free_axis.slope_weights(free_axis.nodes().back());
+    to_corners << free_axis.cardinal_weights(x.front()).col(1),
+        free_axis.cardinal_weights(x.back()).col(1);
     conditions.bottomRightCorner(2, 2) = to_corners.transpose() * conditions.topRightCorner(nx, 2);
   }
-  const MatrixXd along_x = axes_->x.coefficients(conditions);
-  coefficients_ = axes_->y.coefficients(along_x.transpose()).transpose();
+  coefficients_ = axes_->x.solution() * conditions * axes_->y.solution().transpose();
 }
 
 ValueGradient TensorSpline::at(double x, double y) const {
@@ -89,7 +74,7 @@ Rectangle TensorSpline::domain() const {
 }
 
 MatrixXd TensorSpline::cardinal_weights(double x, double y) const {
-  return axes_->x.cardinal_weights(x) * axes_->y.cardinal_weights(y).transpose();
+  return axes_->x.cardinal_weights(x).col(0) * axes_->y.cardinal_weights(y).col(0).transpose();
 }
 
 }  // namespace chaintrue::interp

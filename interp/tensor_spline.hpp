@@ -26,13 +26,11 @@ struct TensorEnds {
   AxisEnds y;
 };
 
-/// Slopes along clamped edges. An empty vector means zero slope. At a corner where two clamped
+/// Slopes across clamped edges. An empty matrix means zero slope. At a corner where two clamped
 /// edges meet, the twist is the derivative along x of the given edge slopes (not-a-knot).
 struct EdgeSlopes {
-  VectorXd x_low;   ///< df/dx along x = x_min, one for each y node
-  VectorXd x_high;  ///< df/dx along x = x_max
-  VectorXd y_low;   ///< df/dy along y = y_min, one for each x node
-  VectorXd y_high;  ///< df/dy along y = y_max
+  MatrixXd x;  ///< df/dx: rows for x_min and x_max, a column for each y node
+  MatrixXd y;  ///< df/dy: a row for each x node, columns for y_min and y_max
 };
 
 /// Two solved axes, shared by surfaces on the same grid.
@@ -60,7 +58,6 @@ class TensorSpline final : public Surface {
                const EdgeSlopes& slopes = {});
 
   ValueGradient at(double x, double y) const override;
-  double value(double x, double y) const { return at(x, y).value; }
   Rectangle domain() const override;
 
   const TensorAxes& axes() const { return *axes_; }

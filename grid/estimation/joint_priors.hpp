@@ -81,7 +81,7 @@ inline void add_surface_prior(const JointProblem& joint, const VectorXd& weights
       .segment(unknowns.polynomial(Side::left), 2 * unknowns.polynomials)
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: the same causes act on both surfaces.
-  problem.ridge = {unknowns.first_penalised_of(Side::left), 2 * unknowns.penalised};
+  problem.ridge.count = 2 * unknowns.penalised;
   // The lambda at which the splines' penalty weighs as much as the data.
   for (const auto u : each_index(joint.units())) {
     for (const observation::PlaceColumns& place : joint.units()[u].places) {

@@ -208,25 +208,28 @@ Vector2d MapField::add_change(MarkPoint mark, MapLengths& here) const {
 
 namespace {
 
-/// For the lines that are the rows of `values`, at their first node or, reversed, at their last.
-VectorXd slopes_at_end(const std::vector<double>& nodes, const MatrixXd& values, bool last) {
-  const auto at = [&](Index i) { return last ? std::ssize(nodes) - 1 - i : i; };
-  const auto node = [&](Index i) { return nodes[as_size(at(i))]; };
-  const auto slope_to = [&](Index i) -> VectorXd {
-    return (values.col(at(i)) - values.col(at(0))) / (node(i) - node(0));
-  };
-  const VectorXd near = slope_to(1);
-  if (nodes.size() == 2) return near;
-  return near - (slope_to(2) - near) * (node(1) - node(0)) / (node(2) - node(1));
+/// For the lines that are the rows of `values`, at their first node and at their last: a column each.
+MatrixXd end_slopes(const std::vector<double>& nodes, const MatrixXd& values) {
+  MatrixXd slopes(values.rows(), 2);
+  for (const Index end : {0, 1}) {
+    const auto at = [&](Index i) { return end == 1 ? std::ssize(nodes) - 1 - i : i; };
+    const auto node = [&](Index i) { return nodes[as_size(at(i))]; };
+    const auto slope_to = [&](Index i) -> VectorXd {
+      return (values.col(at(i)) - values.col(at(0))) / (node(i) - node(0));
+    };
+    const VectorXd near = slope_to(1);
+    slopes.col(end) = near;
+    if (nodes.size() == 2) continue;
+    slopes.col(end) -= (slope_to(2) - near) * (node(1) - node(0)) / (node(2) - node(1));
+  }
+  return slopes;
 }
 
 }  // namespace
 
 interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
                                    const std::vector<double>& y_nodes_mm, const MatrixXd& values) {
-  const MatrixXd along_x = values.transpose();
-  return {slopes_at_end(x_nodes_mm, along_x, false), slopes_at_end(x_nodes_mm, along_x, true),
-          slopes_at_end(y_nodes_mm, values, false), slopes_at_end(y_nodes_mm, values, true)};
+  return {end_slopes(x_nodes_mm, values.transpose()).transpose(), end_slopes(y_nodes_mm, values)};
 }
 
 }  // namespace chaintrue::grid

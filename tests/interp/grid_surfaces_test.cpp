@@ -46,7 +46,7 @@ TEST(MissingNodes, FillSumsOverTheAxesAndCubicsExactly) {
         const auto grid = fill_missing(x, y, holed);
         ASSERT_TRUE(grid);
         ASSERT_EQ(grid->filled.size(), 1U);
-        EXPECT_NEAR(grid->filled[0].value, whole(ix, iy), rounding);
+        EXPECT_NEAR(grid->values(ix, iy), whole(ix, iy), rounding);
         EXPECT_GE(grid->filled[0].doubt, 0.0);
         EXPECT_LE(grid->filled[0].doubt, most_doubt);
       }

@@ -24,8 +24,8 @@ struct Sample {
   PenalisedProblem problem{1};
 };
 
-// y = Z s + F u + sigma e with graded F, as for smooth functions at scattered points, between two
-// shared columns with a prior and one of which nothing is known.
+// y = Z s + F u + sigma e with graded F, as for smooth functions at scattered points, after two shared
+// columns with a prior and one of which nothing is known.
 Sample sample_of(Eigen::Index rows, double sigma) {
   truths::Random random(kRemlSeed);
   Sample sample{Eigen::MatrixXd(rows, kRidge + kShared), {}, PenalisedProblem(kRidge + kShared)};
@@ -33,14 +33,14 @@ Sample sample_of(Eigen::Index rows, double sigma) {
   for (double& value : b) value = random.normal();
   for (double& value : sample.design.reshaped()) value = random.normal();
   for (Eigen::Index j = 0; j < kRidge; ++j) {
-    sample.design.col(2 + j) *= std::pow(10.0, -0.15 * static_cast<double>(j));
+    sample.design.col(kShared + j) *= std::pow(10.0, -0.15 * static_cast<double>(j));
   }
   sample.response = sample.design * b;
   for (double& value : sample.response) value += sigma * random.normal();
   PenalisedProblem& problem = sample.problem;
   problem.add_rows(sample.design.topRows(7), sample.response.head(7));
   problem.add_rows(sample.design.bottomRows(rows - 7), sample.response.tail(rows - 7));
-  problem.ridge = {2, kRidge};
+  problem.ridge = {kRidge, sample.design.rightCols(kRidge).squaredNorm() / kRidge};
   problem.prior_precision.diagonal().head(2) << 1.0, 0.5;
   problem.prior_mean.head(2) << 0.2, -0.1;
   problem.noise = {NoiseKnowledge::unknown, 0.0};
@@ -63,9 +63,9 @@ struct MixedModel {
 
 MixedModel mixed_model(const Sample& sample, double lambda, double sigma2) {
   const PenalisedProblem& p = sample.problem;
-  const Eigen::MatrixXd f = sample.design.middleCols(2, kRidge);
+  const Eigen::MatrixXd f = sample.design.rightCols(kRidge);
   const Eigen::MatrixXd z = sample.design.leftCols(2);
-  const Eigen::VectorXd fixed = sample.design.rightCols(1);
+  const Eigen::VectorXd fixed = sample.design.col(2);
   const Eigen::Vector2d variance = p.prior_precision.diagonal().head(2).cwiseInverse();
   const Eigen::Index n = f.rows();
   const Eigen::MatrixXd w = sigma2 * Eigen::MatrixXd::Identity(n, n) + f * f.transpose() / lambda +
@@ -79,7 +79,7 @@ MixedModel mixed_model(const Sample& sample, double lambda, double sigma2) {
       std::log(lu.determinant()) + std::log(information) + (y - effect * fixed).dot(solved),
       Eigen::VectorXd(kRidge + kShared)};
   model.coefficients << p.prior_mean.head(2) + variance.asDiagonal() * (z.transpose() * solved),
-      f.transpose() * solved / lambda, effect;
+      effect, f.transpose() * solved / lambda;
   return model;
 }
 
@@ -131,17 +131,17 @@ TEST_P(RemlForm, FindsTheMinimumAndTheAverageOfAGrid) {
       least = std::min(least, there.minus_two_log_reml);
       // The prior is flat in the standard deviations.
       const double w = std::exp(-0.5 * (there.minus_two_log_reml - fit.minus_two_log_reml + a - b));
-      const double off = there.coefficients[2] - fit.coefficients[2];
+      const double off = there.coefficients[kShared] - fit.coefficients[kShared];
       weight += w;
       inverse_lambda += w * std::exp(-a);
-      first_variance += w * (there.covariance(2, 2) + off * off);
+      first_variance += w * (there.covariance(kShared, kShared) + off * off);
     }
   }
   EXPECT_LE(fit.minus_two_log_reml, least + 1e-9);  // rounding of V
   // Steps of one sigma down to e^-4 of the peak against a quarter down to nothing: the tails that
   // they leave out hold 2 % of a normal posterior, more of a skew one.
   EXPECT_NEAR(fit.inverse_lambda / (inverse_lambda / weight), 1.0, 0.15);
-  EXPECT_NEAR(fit.corrected_covariance(2, 2) / (first_variance / weight), 1.0, 0.15);
+  EXPECT_NEAR(fit.corrected_covariance(kShared, kShared) / (first_variance / weight), 1.0, 0.15);
 }
 
 TEST_P(RemlForm, HeldOutResidualsAreThoseOfARefit) {
@@ -201,7 +201,7 @@ TEST(Reml, RowsKeepTheirDigitsWithoutNoise) {
 
 TEST(Reml, RefusesAnEmptyColumn) {
   Sample sample = sample_of(20, 0.3);
-  sample.problem.design.col(26).setZero();
+  sample.problem.design.col(2).setZero();
   const auto fit = fit_penalised(sample.problem);
   ASSERT_FALSE(fit.has_value());
   EXPECT_EQ(fit.error().reason, FitFailure::Reason::rank_deficient);
@@ -210,7 +210,7 @@ TEST(Reml, RefusesAnEmptyColumn) {
 
 TEST(Reml, PriorKnowledgeOfARidgeColumnThrows) {
   Sample sample = sample_of(20, 0.3);
-  sample.problem.prior_precision(2, 2) = 1.0;
+  sample.problem.prior_precision(kShared, kShared) = 1.0;
   EXPECT_THROW((void)fit_penalised(sample.problem), std::invalid_argument);
 }
 
@@ -227,7 +227,7 @@ TEST(Reml, AnAbsentFieldStaysUncertain) {
   }
   PenalisedProblem problem(7);
   problem.add_rows(design / 0.1, response / 0.1);
-  problem.ridge = {3, 4};
+  problem.ridge = {4, problem.design.rightCols(4).squaredNorm() / 4};
   FitOptions plain;
   plain.prior = SmoothingPrior::none;
   const auto fit = fit_penalised(problem, plain).value();

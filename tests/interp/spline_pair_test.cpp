@@ -22,8 +22,9 @@ TEST(SplinePair, EqualsTwoSplinesInsideAndOutside) {
   const std::vector<double> uneven = {kBed.x_min, -1200.0, -1190.0, 0.0, 900.0, 910.0, kBed.x_max};
   for (const auto& x : {truths::even(kBed.x_min, kBed.x_max, 7), uneven}) {
     const auto y = random.nodes(4, kBed.y_min, kBed.y_max);
+    const auto axes = std::make_shared<const TensorAxes>(x, y);
     const auto chains = [&](double side) {
-      return TensorSpline(x, y, truths::sample(x, y, [side](double a, double b) {
+      return TensorSpline(axes, truths::sample(x, y, [side](double a, double b) {
                             return truths::wrapped_chain(a, b, side);
                           }));
     };
@@ -50,7 +51,7 @@ TEST(SplinePair, EqualsTwoSplinesInsideAndOutside) {
   }
 }
 
-TEST(SplinePair, RefusesOtherNodesAndQuintics) {
+TEST(SplinePair, RefusesOtherAxesAndQuintics) {
   const TensorSpline a({0, 1, 3}, {0, 1}, Eigen::MatrixXd::Zero(3, 2));
   const TensorSpline b({0, 1, 2}, {0, 1}, Eigen::MatrixXd::Zero(3, 2));
   EXPECT_THROW(SplinePair(a, b), std::invalid_argument);

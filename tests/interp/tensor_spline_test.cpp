@@ -25,16 +25,16 @@ TEST(TensorSpline, ReproducesTheExampleOfTheProposal) {
   const auto y = even(0, 1200, 5);
   const TensorSpline surface(x, y, sample(x, y, truths::proposal));
   // Octave 7.3 interp2(..., 'spline') and SciPy 1.10 RectBivariateSpline(...).ev print 2665.422998.
-  EXPECT_NEAR(surface.value(100, 200), 2665.422998, 1e-6);
-  EXPECT_NEAR(truths::proposal(100, 200) - surface.value(100, 200), -0.231343, 1e-6);
+  EXPECT_NEAR(surface.at(100, 200).value, 2665.422998, 1e-6);
+  EXPECT_NEAR(truths::proposal(100, 200) - surface.at(100, 200).value, -0.231343, 1e-6);
   // ALGLIB 3.19 and GSL 2.7.1 on the same grid.
   const TensorEnds parabolic = {{EndCondition::parabolic, EndCondition::parabolic},
                                 {EndCondition::parabolic, EndCondition::parabolic}};
   const TensorEnds natural = {{EndCondition::natural, EndCondition::natural},
                               {EndCondition::natural, EndCondition::natural}};
   const Eigen::MatrixXd z = sample(x, y, truths::proposal);
-  EXPECT_NEAR(TensorSpline(x, y, z, parabolic).value(100, 200), 2664.808680, 1e-6);
-  EXPECT_NEAR(TensorSpline(x, y, z, natural).value(100, 200), 2659.051508, 1e-6);
+  EXPECT_NEAR(TensorSpline(x, y, z, parabolic).at(100, 200).value, 2664.808680, 1e-6);
+  EXPECT_NEAR(TensorSpline(x, y, z, natural).at(100, 200).value, 2659.051508, 1e-6);
 }
 
 /// The power coefficients about `from` of the cubic through four values of f in a cell.
@@ -99,9 +99,10 @@ TEST(TensorSpline, IsTheSplineOfEveryPairOfEnds) {
       for (int k = 0; k < 10; ++k) {
         const double px = random.uniform(-1.2, 1.2);
         const double py = random.uniform(-0.6, 0.6);
-        expect_spline([&](double at) { return surface.value(at, py); }, x, ends.x);
-        expect_spline([&](double at) { return surface.value(px, at); }, y, ends.y);
-        EXPECT_NEAR(surface.value(px, py), surface.cardinal_weights(px, py).cwiseProduct(z).sum(),
+        expect_spline([&](double at) { return surface.at(at, py).value; }, x, ends.x);
+        expect_spline([&](double at) { return surface.at(px, at).value; }, y, ends.y);
+        EXPECT_NEAR(surface.at(px, py).value,
+                    surface.cardinal_weights(px, py).cwiseProduct(z).sum(),
                     1e-11);  // rounding of sums of 28 terms
       }
     }
@@ -135,25 +136,14 @@ TEST(TensorSpline, ClampedWithItsOwnSlopesReproducesEveryBicubic) {
   const auto fy = [](double x, double y) { return (1 + x - x * x * x) * (-2 * y + 3 * y * y); };
   const std::vector<double> x = {-1, -0.2, 0.3, 1.1};
   const std::vector<double> y = {-0.5, 0.1, 0.4, 0.9};
-  EdgeSlopes slopes;
-  const auto along = [&](auto g, bool vertical, double at) {
-    Eigen::VectorXd s(4);
-    for (Eigen::Index i = 0; i < 4; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      s(i) = vertical ? g(at, y[k]) : g(x[k], at);
-    }
-    return s;
-  };
-  slopes.x_low = along(fx, true, x.front());
-  slopes.x_high = along(fx, true, x.back());
-  slopes.y_low = along(fy, false, y.front());
-  slopes.y_high = along(fy, false, y.back());
+  const EdgeSlopes slopes = {sample({x.front(), x.back()}, y, fx),
+                             sample(x, {y.front(), y.back()}, fy)};
   const TensorEnds ends = {{EndCondition::clamped, EndCondition::clamped},
                            {EndCondition::clamped, EndCondition::clamped}};
   const TensorSpline surface(x, y, sample(x, y, f), ends, slopes);
   for (double px = -1; px <= 1.1; px += 0.13) {
     for (double py = -0.5; py <= 0.9; py += 0.11) {
-      EXPECT_NEAR(surface.value(px, py), f(px, py), 1e-13);  // rounding
+      EXPECT_NEAR(surface.at(px, py).value, f(px, py), 1e-13);  // rounding
     }
   }
 }
@@ -165,7 +155,7 @@ TEST(TensorSpline, TwoAndThreeNodesGiveTheLineAndTheParabola) {
   const TensorSpline surface(x, y, sample(x, y, f));
   for (double px = -1; px <= 2; px += 0.3) {
     for (double py = 0; py <= 2; py += 0.2) {
-      EXPECT_NEAR(surface.value(px, py), f(px, py), 1e-13);  // rounding
+      EXPECT_NEAR(surface.at(px, py).value, f(px, py), 1e-13);  // rounding
     }
   }
 }
@@ -231,11 +221,11 @@ TEST(TensorSpline, RefusesInvalidGrids) {
             }),
             "a value of the grid is not finite");
   EdgeSlopes slopes;
-  slopes.x_low = Eigen::VectorXd::Zero(3);
+  slopes.x = Eigen::MatrixXd::Zero(2, 3);
   EXPECT_EQ(refusal_of([&] {
               TensorSpline({0, 1, 2}, {0, 1}, z, {}, slopes);
             }),
-            "slopes along the edge x_low: 3 given, its axis has 2 nodes");
+            "2 x 3 slopes along x, where the nodes need 2 x 2");
 }
 
 }  // namespace

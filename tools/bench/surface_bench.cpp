@@ -145,21 +145,21 @@ PenalisedProblem joint_problem(std::size_t count) {
   const Eigen::Index m = basis.size();
   constexpr double kSigma = 0.3;
   chaintrue::grid::Random random(2);
-  PenalisedProblem problem(2 * m + kShared);
+  PenalisedProblem problem(kShared + 2 * m);
   for (const PlanePoint& p : random_points(count)) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 2 * m + kShared);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, kShared + 2 * m);
     for (Eigen::Index k = 0; k < 2; ++k) {
-      rows.row(k).segment(k * m, m) = basis.row(p.x, p.y).transpose() / kSigma;
+      rows.row(k).segment(kShared + k * m, m) = basis.row(p.x, p.y).transpose() / kSigma;
       for (Eigen::Index j = 0; j < kShared; ++j) {
         const auto wave = static_cast<double>(j + k);
-        rows(k, 2 * m + j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / kSigma;
+        rows(k, j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / kSigma;
       }
     }
     problem.add_rows(rows,
                      Eigen::VectorXd::Constant(2, smooth(p.x, p.y) / kSigma + random.normal()));
   }
-  problem.ridge = {0, 2 * m};
-  problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
+  problem.ridge = {2 * m, problem.design.rightCols(2 * m).colwise().squaredNorm().mean()};
+  problem.prior_precision.topLeftCorner(kShared, kShared).setIdentity();
   return problem;
 }
 

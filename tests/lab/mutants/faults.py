@@ -44,7 +44,7 @@ FAULTS = [
           "belt_?effect|zero_?shift"),
     # interp
     Fault("spline_slope_unit", "interp/bspline_basis.cpp",
-          "result.slope[i] /= step;",
+          "result.slope[i] /= axis.step;",
           "",
           "bspline"),
     Fault("bending_mixed_term", "interp/bspline_basis.cpp",
@@ -55,8 +55,8 @@ FAULTS = [
           "-6.0 * s * (1.0 - s) / policy.fade_width",
           "-6.0 * s * (1.0 - s)",
           "region|fade"),
-    Fault("average_without_prior", "interp/reml_search.cpp",
-          "likelihood_.left_out_slope().dot(theta)",
+    Fault("average_without_prior", "interp/reml.cpp",
+          "likelihood_.left_out_slope().dot(there)",
           "0.0",
           "interp.*reml"),
     # grid/observation
