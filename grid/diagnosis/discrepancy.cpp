@@ -110,10 +110,14 @@ Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a
   for (const DiscrepancyField& field : kernel.fields) {
     Matrix2d covariance = Matrix2d::Identity();
     if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
-    for (const Index i : each_below(covariance.rows())) {
-      for (const Index j : each_below(covariance.cols()))
-        covariance(i, j) *=
-            field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
+    const auto between = [&](Index i, Index j) {
+      return field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
+    };
+    // Only the distances to the border differ by axis.
+    if (field.of != Coordinate::border) {
+      covariance *= between(0, 0);
+    } else {
+      covariance.array() *= Eigen::Array22d::NullaryExpr(between);
     }
     sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
   }
