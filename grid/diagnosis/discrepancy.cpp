@@ -131,9 +131,10 @@ MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const Regressor
                                 const KeptRows& columns) {
   const auto to_places = rows_by_place(to, rows, kernel);
   const auto from_places = rows_by_place(from, columns, kernel);
+  const bool symmetric = &rows == &columns;
   MatrixXd c = MatrixXd::Zero(rows.size(), columns.size());
   for (const auto p : each_index(to_places)) {
-    for (const auto q : each_index(from_places)) {
+    for (const auto q : each_below(symmetric ? p + 1 : from_places.size())) {
       if (to_places[p].empty() || from_places[q].empty()) continue;
       const SystemPlace& here = to.places[p];
       const SystemPlace& there = from.places[q];
@@ -144,7 +145,10 @@ MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const Regressor
         decltype(a.by) left = k * a.by;
         if (!kernel.of_lengths()) left = a.by.lazyProduct(block);
         for (const RowsAtPlace& b : from_places[q]) {
-          c.block(a.at, b.at, left.rows(), b.by.rows()) += left.lazyProduct(b.by.transpose());
+          const decltype(a.by) part = left.lazyProduct(b.by.transpose());
+          c.block(a.at, b.at, part.rows(), part.cols()) += part;
+          if (symmetric && p != q)
+            c.block(b.at, a.at, part.cols(), part.rows()) += part.transpose();
         }
       }
     }

@@ -89,7 +89,8 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-/// Covariance of these whitened rows of `to` with those of `from`, for s = 1. Rows that see no place stay 0.
+/// Covariance of these whitened rows of `to` with those of `from`, for s = 1; exactly symmetric of rows with themselves.
+/// Rows that see no place stay 0.
 MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const RegressorSystem& to,
                                 const KeptRows& rows, const RegressorSystem& from,
                                 const KeptRows& columns);
