@@ -70,7 +70,7 @@ function nameOf({effect, side}) {
   return `${effect.replaceAll("_", " ")}${side ? `, ${SIDES[side] ?? side}` : ""}`;
 }
 
-/** As laws are claimed (grid/diagnosis/constants.def, kLawClaimed). */
+/** As laws are claimed (grid/diagnosis/constants.hpp, kLawClaimed). */
 const CLAIMED = 0.9;
 const SAYS = {confirmed: "confirmed, it acts here", denied:
     "denied, with the values in the file it would have " +
