@@ -123,7 +123,7 @@ struct Law {
   /// Probability that the pattern is a function of this variable and enters there, whatever its
   /// shape.
   double probability = 0.0;
-  double shape_probability = 0.0;  ///< of this shape, given that
+  double shape_probability = 0.0;  ///< of this shape, given the law
   double direction_deg = 0.0;      ///< of Coordinate::across, from x towards y
   int towards = 0;                 ///< of a kink or an exponential: 1, -1; else 0
   double from = 0.0;

@@ -247,7 +247,8 @@ LineOfWords line_of_header(std::string_view text) {
         count_where(row, [](const CsvCell& cell) { return is_like_a_number(cell.text); });
     const std::size_t filled =
         count_where(row, [](const CsvCell& cell) { return !cell.text.empty(); });
-    // A hole's name and its two coordinates; an order alone, before readings are typed in, is none.
+    // At least a hole's two coordinates. A row with nothing but its order, in a list that is not yet
+    // filled in, does not count.
     found_numbers = numbers >= 2 && 2 * numbers > filled;
     if (!found_numbers || above.empty()) above.push_back({line, number, filled});
     return !found_numbers && above.size() <= kMostAboveHeader;

@@ -88,8 +88,9 @@ MarlinArea defined_area(SettingReader& settings, Problems& problems) {
   return area;
 }
 
-/// Where the page hangs: the widest that bed and belt reach as far down as it takes, of half of the
-/// spacing. Near the pins, which are the corners of Marlin's area, a cord hangs all of the gondola.
+/// Sets the page: the widest one that leaves room for a usable height within bed and belt. Sizes are
+/// shares of half of the spacing. It stays away from the pins, the corners of Marlin's area: there one
+/// cord carries the whole gondola.
 void place_marlin_page(double bed_mm, double belt_mm, PlotterMachine& machine, Problems& problems) {
   constexpr double kTop = 0.4, kLeastHeight = 0.5;
   constexpr double kSides[] = {0.8, 0.7, 0.6, 0.5, 0.4, 0.3};

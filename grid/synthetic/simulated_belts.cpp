@@ -49,7 +49,7 @@ std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {
   return passes;
 }
 
-/// All places once, numbered on. \returns the place that cannot be reached.
+/// Appends one visit of every place; orders continue. \returns the place that cannot be reached.
 std::optional<BeltsUnreachable> add_pass(const BeltMachine& stated, const BeltMachine& truth,
                                          const BeltsSpec& spec, const std::optional<BeltPull>& pull,
                                          Random& noise, MeasuredBelts& belts) {
