@@ -16,7 +16,10 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
+
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::sealed {
 
@@ -47,8 +50,14 @@ template <class Number>
 Number number_of(const std::string& text) {
   Number value{};
   const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc{} || read.ptr != end)
+  const auto [rest, error] = [&] {
+    if constexpr (std::is_floating_point_v<Number>) {
+      return grid::files::parse_double(text.data(), end, value);
+    } else {
+      return std::from_chars(text.data(), end, value);
+    }
+  }();
+  if (error != std::errc{} || rest != end)
     throw std::invalid_argument("\"" + text + "\" is not a number");
   return value;
 }
