@@ -55,8 +55,8 @@ template <class Container, class Value>
 bool contains(const Container& all, const Value& one) {
   return std::find(std::begin(all), std::end(all), one) != std::end(all);
 }
-/// A predicate from a member or a function of each element: any_of(points, &MeasuredPoint::order) where
-/// any has an order.
+/// Makes a predicate from a member or a function of the elements: any_of(points, &MeasuredPoint::order)
+/// is true if any point has an order.
 template <class Predicate>
 auto holding(Predicate holds) {
   return [=](const auto& one) { return static_cast<bool>(std::invoke(holds, one)); };

@@ -152,8 +152,8 @@ Estimate estimate_of(const Analysis& analysis, const RegressorSet& columns);
 /// chains.
 interp::Rectangle marked_area(const ObservationSet& session);
 
-/// Unread chains at these places, in their order and without an order of visits, in the frame and with the noise
-/// of a part that reads chains.
+/// Chain lengths still to be read at these places, one after the other and without an order of visits. Frame and
+/// noise are those of a part that reads chains.
 FollowUp readings_at(const ObservationSet& session, std::size_t part, std::vector<Place> places);
 
 /// A session with a point at each reachable mark, without an order of visits. Precondition: as

@@ -46,7 +46,7 @@ std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>
 VectorXd added_by(const MeasuredBelts& belts, const std::vector<SizedCause>& causes,
                   const FrameState& state);
 
-/// The readings minus that.
+/// The readings minus the causes' effects.
 [[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
                                             const std::vector<SizedCause>& causes,
                                             const FrameState& state);

@@ -116,8 +116,8 @@ inline constexpr double kGrowWithin = 12.0;
 inline constexpr std::size_t kMostPairs = 3000;
 /// Causes with whole links searched in pairs. Reason: the best of several hundred.
 inline constexpr std::size_t kKeptFixed = 60;
-/// Visits at which a shift of any size is searched in sets. Reason: of twice as many as visits,
-/// those that explain most alone.
+/// Visits at which a shift of any size is searched in sets. Reason: of two shifts a visit, the
+/// ones that explain most by themselves.
 inline constexpr std::size_t kKeptShifts = 48;
 /// Pairs and triples to extend. Reason: a beam: the causes of the catalogue, once each.
 inline constexpr std::size_t kBeam = 24;

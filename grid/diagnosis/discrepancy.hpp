@@ -104,7 +104,7 @@ MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
 /// algorithm 1).
 using CovarianceOf = std::function<double(Index, Index)>;
 MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance);
-/// The same of a covariance at hand, below this share of its largest variance.
+/// The same for a stored covariance; stops below this share of its largest variance.
 MatrixXd low_rank(const MatrixXd& covariance, double share);
 
 /// A field's effect on the kept rows, through either component of its entry, what is left of the field's unit

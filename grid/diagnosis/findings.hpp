@@ -66,7 +66,7 @@ std::string claimed_law_in_words(const Diagnosis& diagnosis);
 
 /// "a; b and c": the outliers.
 std::string outliers_in_words(const Diagnosis& diagnosis);
-/// The sentence that only these are wrong.
+/// A sentence for data in which nothing but the outliers is wrong.
 std::string only_outliers_in_words(const Diagnosis& diagnosis);
 
 /// What to do about the causes, in at most two lines; empty for a set, of which only one acts.

@@ -140,7 +140,7 @@ namespace {
 struct Fold {
   Indices units;
   Errors errors;
-  bool agrees = false;  ///< its first name, or that nothing is named
+  bool agrees = false;  ///< whether it names the same first cause, or names none either
 };
 
 /// \param units of the analysis' session, left out of everything. The gate and the decision are

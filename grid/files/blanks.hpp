@@ -7,10 +7,10 @@
 
 namespace chaintrue::grid::files {
 
-/// The place of what a text does not hold.
+/// The position that a search returns if the text does not contain the word.
 inline constexpr std::size_t npos = std::string_view::npos;
 
-/// Whether a text holds a letter or a word.
+/// Whether the text contains this letter or word.
 template <class Word>
 bool has(std::string_view text, const Word& word) {
   return text.find(word) != npos;

@@ -52,8 +52,8 @@
 /// Values: a Range, or its braces, for a number, a Record for an object or a list of objects,
 /// integer, choice and by_name (an enum by its names), one_of (a text from a list), list,
 /// dictionary, a pair of functions for a variant; a std::string, a bool, an index and a list of them
-/// need none, nor does what has a RECORD_OF above or in a header. `Record::computed` sets and gets
-/// what is not a member; `Record::custom` takes a pair of functions for whatever does not fit (a list
+/// need none, nor does a type with a RECORD_OF above or in a header. `Record::computed` sets and gets
+/// a key that is no member; `Record::custom` takes a pair of functions for any other value (a list
 /// that notes which of its elements were wrong). Keys are written in the order they are declared.
 /// "comment" is allowed in every object and not kept.
 #pragma once

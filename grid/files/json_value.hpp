@@ -187,7 +187,7 @@ Value<V> value_of_type() {
 /// or of a header, or else value_of_type().
 template <class T>
 struct Of {};
-/// What a list holds; anything else itself.
+/// The element type of a list; any other type is its own element.
 template <class V>
 struct Element {
   using Type = V;

@@ -88,7 +88,7 @@ class RealScans : public testing::TestWithParam<Scan> {
   void SetUp() override {
     const std::filesystem::path data = CHAINTRUE_SHARED_DATA;
     if (!std::filesystem::exists(data / "optical_grid" / GetParam().file))
-      GTEST_SKIP() << "../shared/data is not part of a checkout and is not here: "
+      GTEST_SKIP() << "the scans are shared data, not part of a checkout; they are not in "
                    << data / "optical_grid";
   }
 };

@@ -93,7 +93,7 @@ class Workplace {
 
   void run_line(const std::string& line) {
     if (line.find("$D") != std::string::npos && !fs::exists(CHAINTRUE_SHARED_DATA))
-      GTEST_SKIP() << "there is no shared data at " CHAINTRUE_SHARED_DATA;
+      GTEST_SKIP() << "shared data, not part of a checkout, is not at " CHAINTRUE_SHARED_DATA;
     if (line.find("$MPIRUN") != std::string::npos && !fs::exists(CHAINTRUE_MPIRUN))
       GTEST_SKIP() << "MPI was not found (Debian: libopenmpi-dev, openmpi-bin)";
     const std::string shell = "cd " + folder_.string() +
