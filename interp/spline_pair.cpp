@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/spline_pair.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -59,10 +60,11 @@ SplinePair::Axis::Axis(std::span<const double> nodes)
       last(static_cast<double>(nodes.size() - 2)),
       per_mean_length((last + 1.0) / (nodes.back() - first)) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    intervals.push_back({nodes[i], 1.0 / (nodes[i + 1] - nodes[i])});
-    // Decimal nodes are off by their rounding; 1e-12 of the axis is negligible.
-    const double place = (nodes[i] - first) * per_mean_length;
-    even = even && std::fabs(place - static_cast<double>(i)) <= 1e-12 * (last + 1.0);
+    const double length = nodes[i + 1] - nodes[i];
+    intervals.push_back({nodes[i], 1.0 / length});
+    // A place near a node may then fall into the wrong one of its intervals. Both give the same value:
+    // the third power of a thousand such differences is below rounding.
+    even = even && std::fabs(length * per_mean_length - 1.0) <= 1e-9;
   }
 }
 
@@ -83,28 +85,25 @@ SplinePair::SplinePair(const TensorSpline& first, const TensorSpline& second)
   }
 }
 
-inline double SplinePair::Axis::locate(double x, std::ptrdiff_t& index) const {
-  // One maximum, one minimum: nested conditionals become branches, which are mispredicted near the
-  // edges of a small table.
-  const double guess = (x - first) * per_mean_length;
-  const double low = guess > 0.0 ? guess : 0.0;
-  index = static_cast<int>(low < last ? low : last);
-  // Even nodes need no search: comparing with them would be a branch that random places mispredict.
-  if (even) return guess - static_cast<double>(index);
-  const Interval* const interval = intervals.data();
-  while (index > 0 && x < interval[index].low) --index;
-  while (index < static_cast<std::ptrdiff_t>(last) && x >= interval[index + 1].low) ++index;
-  return (x - interval[index].low) * interval[index].per_length;
+std::ptrdiff_t SplinePair::Axis::search(double x) const {
+  const auto next =
+      std::ranges::upper_bound(intervals.begin() + 1, intervals.end(), x, {}, &Interval::low);
+  return next - intervals.begin() - 1;
+}
+
+inline SplinePair::Place SplinePair::Axis::locate(double x) const {
+  // Held in range as a number: branches on an index are mispredicted near the edges of a small table.
+  const double nearest = std::min(std::max((x - first) * per_mean_length, 0.0), last);
+  // Even nodes need no search, whose comparisons random places mispredict.
+  const std::ptrdiff_t index = even ? static_cast<int>(nearest) : search(x);
+  const auto [low, per_length] = intervals.data()[index];
+  return {index, (x - low) * per_length, per_length};
 }
 
 CHAINTRUE_CLONES PairGradient SplinePair::at(double x, double y) const {
-  std::ptrdiff_t i = 0;
-  std::ptrdiff_t j = 0;
-  const double u = x_.locate(x, i);
-  const double v = y_.locate(y, j);
-  const auto columns = std::ssize(x_.intervals);
-  return cells_.data()[j * columns + i].at(u, v, x_.intervals.data()[i].per_length,
-                                           y_.intervals.data()[j].per_length);
+  const Place u = x_.locate(x), v = y_.locate(y);
+  return cells_.data()[v.index * std::ssize(x_.intervals) + u.index].at(
+      u.inside, v.inside, u.per_length, v.per_length);
 }
 
 }  // namespace chaintrue::interp

@@ -33,10 +33,15 @@ class SplinePair {
     double low;
     double per_length;  // 1 / length
   };
+  struct Place {
+    std::ptrdiff_t index;  // of the interval: beyond the ends, the nearest one
+    double inside;         // from 0 to 1
+    double per_length;
+  };
   struct Axis {
     explicit Axis(std::span<const double> nodes);
-    /// The interval (beyond the ends, the nearest one) and the place in it.
-    [[gnu::always_inline]] double locate(double x, std::ptrdiff_t& index) const;
+    Place locate(double x) const;
+    std::ptrdiff_t search(double x) const;
     double first;
     double last;  // index of the last interval
     double per_mean_length;

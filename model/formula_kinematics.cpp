@@ -51,7 +51,7 @@ class FormulaKinematics final : public Kinematics {
       return tl::unexpected(PoseReason::above_sprockets);
     const PerSide<double> tension = tensions(in, chains);
     if (!(tension.left > 0.0 && tension.right > 0.0)) return tl::unexpected(PoseReason::slack);
-    const PerSide<double> total = lengths(in);
+    const PerSide<double> total = lengths(in, chains);
     Pose pose;
     pose.position = p;
     for (const Side side : kSides) {
@@ -76,6 +76,12 @@ class FormulaKinematics final : public Kinematics {
     return chains(inputs_by_place(m_, pose.position));
   }
 
+  Eigen::Matrix2d jacobian(const Pose& pose) const override {
+    const auto in = inputs_by_place(m_, pose.position);
+    const auto [left, right] = lengths(in, straight_chains(in));
+    return Eigen::Matrix2d{{left.d[0], left.d[1]}, {right.d[0], right.d[1]}};
+  }
+
   PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const override {
     const bool counts = parameter != Parameter::sprocket_radius_mm || formula_ != Formula::straight;
     return chains(inputs_by_parameter(m_, pose.position, parameter, counts));
@@ -93,8 +99,7 @@ class FormulaKinematics final : public Kinematics {
   }
 
   template <class T>
-  PerSide<T> lengths(const ChainInputs<T>& in) const {
-    const PerSide<StraightChain<T>> chains = straight_chains(in);
+  PerSide<T> lengths(const ChainInputs<T>& in, const PerSide<StraightChain<T>>& chains) const {
     const auto free_length = [&](const StraightChain<T>& own, const StraightChain<T>& other) -> T {
       if (formula_ == Formula::firmware)
         return firmware_sagged_mm(own, other.angle_rad, sag_correction_);
@@ -118,7 +123,7 @@ class FormulaKinematics final : public Kinematics {
   template <int N>
   PerSide<ChainNumbers<N>> chains(const ChainInputs<Dual<N>>& in) const {
     const PerSide<StraightChain<Dual<N>>> straight = straight_chains(in);
-    const PerSide<Dual<N>> total = lengths(in), tension = tensions(in, straight);
+    const PerSide<Dual<N>> total = lengths(in, straight), tension = tensions(in, straight);
     PerSide<ChainNumbers<N>> result;
     for (const Side side : kSides) {
       result[side] = {total[side], straight[side].angle_rad, total[side] - straight[side].wrap_mm,

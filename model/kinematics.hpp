@@ -123,7 +123,7 @@ class Kinematics {
   /// With derivatives by the parameter at fixed (x, y).
   virtual PerSide<ChainNumbers<1>> by_parameter(const Pose& pose, Parameter parameter) const = 0;
   /// d(left, right)/d(x, y)
-  Eigen::Matrix2d jacobian(const Pose& pose) const;
+  virtual Eigen::Matrix2d jacobian(const Pose& pose) const;
 };
 
 /// \throws std::invalid_argument if a parameter is not finite or out of its range, with its name
