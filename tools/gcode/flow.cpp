@@ -43,11 +43,21 @@ bool Flow::next(SourceLine& line) {
 
 /// Longer words before their prefixes.
 const Flow::Word Flow::kWords[] = {
-    {"endsub", &Flow::return_from}, {"sub", &Flow::begin_sub},      {"call", &Flow::call},
-    {"return", &Flow::return_from}, {"endwhile", &Flow::end_loop},  {"while", &Flow::begin_loop},
-    {"do", &Flow::begin_loop},      {"elseif", &Flow::condition},   {"else", &Flow::condition},
-    {"endif", &Flow::condition},    {"if", &Flow::condition},       {"break", &Flow::jump_out},
-    {"continue", &Flow::jump_out},  {"endrepeat", &Flow::end_loop}, {"repeat", &Flow::begin_loop},
+    {"endsub", &Flow::return_from},
+    {"sub", &Flow::begin_sub, true},
+    {"call", &Flow::call},
+    {"return", &Flow::return_from},
+    {"endwhile", &Flow::end_loop, true},
+    {"while", &Flow::begin_loop},
+    {"do", &Flow::begin_loop, true},
+    {"elseif", &Flow::condition},
+    {"else", &Flow::condition, true},
+    {"endif", &Flow::condition, true},
+    {"if", &Flow::condition},
+    {"break", &Flow::jump_out, true},
+    {"continue", &Flow::jump_out, true},
+    {"endrepeat", &Flow::end_loop, true},
+    {"repeat", &Flow::begin_loop},
     {"", &Flow::name_program},
 };
 
@@ -72,6 +82,9 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
 
 void Flow::control(const CleanLine& line, std::size_t at) {
   const ControlLine control = parse(line, at);
+  // As in LinuxCNC, a line that is only searched for may have a rest.
+  if (control.stands_alone && control.rest < line.text.size())
+    refuse(bad_flow, line.place(control.rest), "nothing may follow {}", control.keyword);
   (this->*control.execute)(line, control);
 }
 

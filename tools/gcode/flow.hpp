@@ -39,6 +39,7 @@ class Flow {
   struct Word {
     std::string_view keyword;  // empty for the number of a program
     void (Flow::*execute)(const CleanLine&, const ControlLine&);
+    bool stands_alone = false;  // nothing may follow
   };
   static const Word kWords[];
   struct ControlLine : Word {

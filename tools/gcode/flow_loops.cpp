@@ -83,6 +83,7 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
   if (!begins) {  // the executed branch is over
     close(open);
     if (control.keyword == "endif") return;
+    if (control.keyword == "elseif") value(line, control.rest);
     skip_to(control.label, {"endif"}, line);
     return;
   }

@@ -135,8 +135,8 @@ void Interpreter::cycle(int motion) {
     cycle.rapid(cycle.retract);
     height = cycle.retract;
   }
-  // G98 does not traverse below the height at the start of the row.
-  if (!modes_.retract_to_r) height = std::max(height, sticky_.start);
+  // The traverse is not below the height at which the row began (G98) or the R plane (G99).
+  height = std::max(height, modes_.retract_to_r ? cycle.retract : sticky_.start);
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
     for (const std::size_t i : {0U, 1U}) cycle.hole[i] = place[i] += stride[i];
