@@ -187,12 +187,11 @@ Value<BeltEnd> end_of_distance() {
             if (const auto* belt = std::get_if<Belt>(&end)) return name(*belt);
             return hole_place_record().write(std::get<CutHole>(end).commanded);
           },
-          {expected, [] {
-             return Json{{"oneOf",
-                          {{{"type", "integer"}, {"minimum", 0}},
-                           belt_word().expected.schema(),
-                           hole_place_record().schema()}}};
-           }}};
+          {expected,
+           {{"oneOf",
+             {{{"type", "integer"}, {"minimum", 0}},
+              belt_word().expected.schema,
+              hole_place_record().schema()}}}}};
 }
 
 RECORD_OF(BeltDistance, "a taped distance")

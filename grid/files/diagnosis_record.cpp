@@ -34,9 +34,8 @@ Value<const Effect*> effect_word() {
           },
           [](const Effect* const& effect) { return effect->id; },
           // Declared effects have their own names.
-          {known.expected.words, [schema = known.expected.schema]() -> Json {
-             return {{"type", "string"}, {"examples", schema()["enum"]}};
-           }}};
+          {known.expected.words,
+           {{"type", "string"}, {"examples", known.expected.schema["enum"]}}}};
 }
 
 bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sides, side); }
@@ -49,28 +48,28 @@ bool is_of_a_drawing(const Json& root) {
 /// The cause of an object, or the object itself.
 template <class T>
 auto& cause_in(T& object) {
-  if constexpr (std::is_same_v<std::remove_const_t<T>, CauseId>) {
+  if constexpr (std::is_same_v<T, CauseId>) {
     return object;
   } else {
     return object.cause;
+  }
+}
+template <class T, class M>
+auto path_of_cause(M CauseId::*member) {
+  if constexpr (std::is_same_v<T, CauseId>) {
+    return member;
+  } else {
+    return path(&T::cause, member);
   }
 }
 
 /// The keys of an effect and its side.
 template <class T>
 void cause_keys(Record<T>& record) {
-  const Value<EffectSide> side = by_name_to(EffectSide::all, EffectSide::left);
-  record.computed(
-      "effect", "The effect's name, as chaintrue effects lists them.", true, effect_word(),
-      [](T& object, const Effect* effect) { cause_in(object).effect = effect; },
-      [](const T& object) { return cause_in(object).effect; });
-  record.computed(
-      "side", "Where it acts; null for effects without a side.", false, side,
-      [](T& object, EffectSide own) { cause_in(object).side = own; },
-      [side](const T& object) {
-        const EffectSide own = cause_in(object).side;
-        return own == EffectSide::none ? Json(nullptr) : side.write(own);
-      });
+  record.required("effect", "The effect's name, as chaintrue effects lists them.",
+                  path_of_cause<T>(&CauseId::effect), effect_word());
+  record.nullable("side", "Where it acts; null for effects without a side.",
+                  path_of_cause<T>(&CauseId::side), by_name_to(EffectSide::all));
   record.check([](const Cursor& at, T& object) {
     if (!at.child("effect").clean() || !at.child("side").clean()) return;
     CauseId& found = cause_in(object);
@@ -108,7 +107,7 @@ void parameter_keys(Record<T>& record) {
   record.custom(
       "parameters", "Its size and other parameters, each with its sigma.", true,
       {"an object, each value a value with its sigma",
-       [] { return dictionary_schema(estimate_record().schema()); }},
+       dictionary_schema(estimate_record().schema())},
       [](const Cursor& at, T& object) {
         if (!at.json().is_object())
           return (void)at.expect("an object, each value a value with its sigma");

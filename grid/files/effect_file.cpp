@@ -110,7 +110,7 @@ REQUIRED(acts_on,
 SPARSE(sides,
        "Where it may act, each side tested separately; both: one value for two. "
        "Default: on both equally.",
-       list(by_name_to(EffectSide::y, EffectSide::left)))
+       list(by_name_to(EffectSide::y)))
 REQUIRED(parameters, "Its size, followed by the place where it sets in, if it has one.")
 SPARSE(adds_mm, "Formula for the amount added to a chain or a reading.")
 SPARSE(adds_x_mm, "Formula for the shift of a mark in x.")
@@ -151,9 +151,7 @@ Value<std::vector<const Effect*>> declared_value() {
               return effect_record().write(*declaration_of(*effect));
             });
           },
-          {"a list of declared effects", [] {
-             return Json{{"type", "array"}, {"items", effect_record().expected().schema()}};
-           }}};
+          {"a list of declared effects", list_schema(effect_record().expected().schema, 0)}};
 }
 
 void check_declared_on_bed(const Cursor& at, const Machine& machine) {

@@ -129,7 +129,7 @@ OPTIONAL(noise,
          noise_record())
 OPTIONAL(sheet, "How accurately the marks' sheet was placed by hand; absent: exactly.")
 SPARSE(readings, "What was measured besides the points.", reading_record())
-FIELD(custom, "points", "The measured points.", true, {"a list of points", points_schema},
+FIELD(custom, "points", "The measured points.", true, {"a list of points", points_schema()},
       read_points,
       [value = list(point_record())](const StatedGrid& grid) { return value.write(grid.points); })
     .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})

@@ -47,9 +47,8 @@ Value<std::string> hole_word() {
             return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
           },
           [](const std::string& word) { return word; },
-          {"a hole's name or number", [] {
-             return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
-           }}};
+          {"a hole's name or number",
+           {{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}}}};
 }
 
 RECORD_OF(StatedDistance, "a distance")
@@ -84,11 +83,7 @@ FILE_RECORD(holes, StatedHoles, "a set of holes", kHolesFormat)
 OPTIONAL(name, "Name of the set.")
 FIELD(custom, "machine", "The machine with its settings in force; or machine_file.", false,
       {machine_record().expected().words + ", or one with four belts",
-       [] {
-         return Json{
-             {"anyOf",
-              {machine_record().expected().schema(), belt_machine_record().expected().schema()}}};
-       }},
+       {{"anyOf", {machine_record().expected().schema, belt_machine_record().schema()}}}},
       read_stated_machine, written_stated_machine)
 SPARSE(machine_file, "Path of the machine file, from this file.")
 OPTIONAL(tape, "Noise and hook offset of the tape.")

@@ -58,12 +58,17 @@ struct MemberPath {
   std::size_t inner = 0;  ///< in what the std::optional holds
 };
 
+/// A new object.
+template <class T>
+const T& blank() {
+  static const T object{};
+  return object;
+}
 /// T itself has the member, or a base of it.
 template <class T, class B, class M>
 MemberPath<T, M> path_in(M B::*member) {
-  static const T object{};
-  return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
-                                   reinterpret_cast<const std::byte*>(&object))};
+  return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(blank<T>().*member)) -
+                                   reinterpret_cast<const std::byte*>(&blank<T>()))};
 }
 template <class T, class M, class V>
 MemberPath<T, M, V> path_in(MemberPath<T, M, V> member) {

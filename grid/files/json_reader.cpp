@@ -60,29 +60,25 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
 }
 
 RecordTable::Field& RecordTable::add(Field field, const SharedCodec& codec) {
-  field.expected = codec->expected;
+  field.schema = codec->expected.schema;
   field.codec = codec;
   return fields_.emplace_back(std::move(field));
 }
 
-Json RecordTable::written_default(const Field& field, Make make) {
-  return field.codec->write(static_cast<const std::byte*>(make().get()) + field.offset);
+Json RecordTable::written_default(const Field& field) const {
+  return field.codec->write(static_cast<const std::byte*>(blank_) + field.offset);
 }
 
-void RecordTable::state_default(Field& field, const Json& value) {
-  field.expected.schema = [schema = field.expected.schema, value] {
-    return with_default(schema(), value);
-  };
+void RecordTable::state_default(Field& field) const {
+  const Json value = written_default(field);
+  const bool says_something = field.schema.contains("enum") || value.is_number() ||
+                              value.is_boolean() || (value.is_array() && !value.empty());
+  if (says_something) field.schema["default"] = value;
 }
 
 Expected RecordTable::expected() const {
-  if (format_ == nullptr) {
-    return {noun_,
-            [table = std::make_shared<const RecordTable>(*this)] { return table->schema(); }};
-  }
-  return {noun_, [name = name_of(*format_)]() -> Json {
-            return {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name)}};
-          }};
+  if (format_ == nullptr) return {noun_, schema()};
+  return {noun_, {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name_of(*format_))}}};
 }
 
 Json RecordTable::schema() const {
@@ -94,7 +90,7 @@ Json RecordTable::schema() const {
   }
   properties["comment"] = {{"description", "Anything; not read."}};
   for (const Field& field : fields_) {
-    Json schema = field.expected.schema();
+    Json schema = field.schema;
     if (!field.is_required || field.otherwise.is_null()) schema = schema_or_null(std::move(schema));
     schema["description"] = field.meaning;
     properties[field.key] = std::move(schema);
@@ -136,7 +132,7 @@ bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root,
     const Cursor child = at.child(field.key);
     if (!at.has(field.key) || (!field.is_required && child.json().is_null())) {
       const bool misspelt = contains(probably_meant, field.key);
-      if (field.is_required && !misspelt) child.missing(field.expected);
+      if (field.is_required && !misspelt) child.missing(field.codec->expected.words);
       continue;
     }
     field.codec->read(child, static_cast<std::byte*>(object) + field.offset);

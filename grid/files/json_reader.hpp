@@ -60,7 +60,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -77,7 +76,8 @@ namespace chaintrue::grid::files {
 /// object: a class for each member type dominated the compile time of grid/files.
 class RecordTable {
  public:
-  RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
+  RecordTable(std::string noun, const Format* format, const void* blank)
+      : noun_(std::move(noun)), format_(format), blank_(blank) {}
 
   /// The schema of an object; for a file's record, a reference to that file's schema.
   Expected expected() const;
@@ -90,19 +90,18 @@ class RecordTable {
     std::string meaning;
     bool is_required = false;
     std::size_t offset = 0;  ///< of the member in its object
-    Expected expected = "";
+    Json schema{};
     SharedCodec codec{};
     Json unless = kLeftOut;     ///< a value that counts as none
     Json otherwise = kLeftOut;  ///< what is written for none
   };
-  /// Makes a new default object.
-  using Make = std::shared_ptr<void> (*)();
-
-  /// Adds to the field what its codec expects.
+  /// The field has the schema of its codec.
   Field& add(Field field, const SharedCodec& codec);
-  static Json written_default(const Field& field, Make make);
-  /// The default becomes part of the schema.
-  static void state_default(Field& field, const Json& value);
+  /// What a new object has there.
+  Json written_default(const Field& field) const;
+  /// The default becomes part of the schema if it is a number, a choice, a boolean or a non-empty
+  /// list of these. Texts have no default.
+  void state_default(Field& field) const;
 
   friend SharedCodec object_codec(const RecordTable& record, void (*reset)(void*));
   /// Calls `reset`, unless it is null, as soon as the value is known to be an object.
@@ -123,6 +122,7 @@ class RecordTable {
 
   std::string noun_;
   const Format* format_;
+  const void* blank_;  ///< a new object
 };
 
 /// `reset` makes a new object of the old before it is read; null keeps it. The codec has the record's
@@ -144,10 +144,11 @@ class Record : public RecordTable {
 
  public:
   /// `noun` with its article, for messages such as "expected a sprocket".
-  explicit Record(std::string noun) : RecordTable(std::move(noun), nullptr) {}
+  explicit Record(std::string noun) : RecordTable(std::move(noun), nullptr, &blank<T>()) {}
   /// A file's record begins with its type and version; inside another file both may be left out.
   /// The format must outlive the record.
-  Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
+  Record(std::string noun, const Format& format)
+      : RecordTable(std::move(noun), &format, &blank<T>()) {}
 
   template <class M>
   Record& required(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
@@ -159,14 +160,14 @@ class Record : public RecordTable {
   template <class M>
   Record& optional(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
     Field& own = add_member(key, meaning, false, member, value);
-    if constexpr (!PathOf<M>::kIsOptional) state_default(own, written_default(own, &make));
+    if constexpr (!PathOf<M>::kIsOptional) state_default(own);
     return *this;
   }
 
   template <class M>
   Record& sparse(Text key, Text meaning, M member, const ValueOf<M>& value = value_of<M>()) {
     Field& own = add_member(key, meaning, false, member, value);
-    own.unless = written_default(own, &make);
+    own.unless = written_default(own);
     return *this;
   }
 
@@ -289,7 +290,6 @@ class Record : public RecordTable {
     const PathOf<M> path = path_in<T>(member);
     return add(field(key, meaning, is_required, path.offset), path.codec_for(value));
   }
-  static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
 /// Tables. RECORD_OF to END_RECORD is what members of a type expect; FILE_RECORD to END_FILE_RECORD

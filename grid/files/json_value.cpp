@@ -43,7 +43,7 @@ std::optional<std::string> word_among(const Cursor& at, const Words& names,
 }
 
 Expected expected_word(const Words& names) {
-  return {quoted_choice(names), [names] { return Json{{"enum", names}}; }};
+  return {quoted_choice(names), {{"enum", names}}};
 }
 
 Json number_schema(const Range& range) {
@@ -107,7 +107,7 @@ Value<double> number(Range range) {
           },
           // A negative zero would be read back as a zero: the same number, other bytes.
           [](const double& value) { return value + 0.0; },
-          {range.expected(), [range] { return number_schema(range); }}};
+          {range.expected(), number_schema(range)}};
 }
 
 Value<int> integer(int least, int most) {
@@ -121,9 +121,7 @@ Value<int> integer(int least, int most) {
                              is_number ? ProblemKind::out_of_range : ProblemKind::not_a_number);
           },
           [](const int& value) { return value; },
-          {expected, [=] {
-             return Json{{"type", "integer"}, {"minimum", least}, {"maximum", most}};
-           }}};
+          {expected, {{"type", "integer"}, {"minimum", least}, {"maximum", most}}}};
 }
 
 namespace {
@@ -136,7 +134,7 @@ Value<V> typed(const std::string& expected, const Json& schema, bool (Json::*is)
             return at.expect(expected);
           },
           [](const V& value) { return value; },
-          {expected, [=] { return schema; }}};
+          {expected, schema}};
 }
 
 }  // namespace
@@ -162,7 +160,7 @@ Value<std::string> one_of(const Words& names) {
 
 SharedCodec list_codec(const SharedCodec& element, const ListAccess& access, std::size_t fewest) {
   const std::string words = expected_list(*element, fewest);
-  return shared_codec({{words, [=] { return list_schema(element->expected.schema(), fewest); }},
+  return shared_codec({{words, list_schema(element->expected.schema, fewest)},
                        [=](const Cursor& at, void* list) {
                          if (!at.json().is_array()) {
                            at.expect(words);
@@ -209,14 +207,7 @@ Value<std::map<std::string, double>> dictionary(const Value<double>& element) {
             for (const auto& [key, value] : values) object[key] = element.write(value);
             return object;
           },
-          {expected, [element] { return dictionary_schema(element.expected.schema()); }}};
-}
-
-Json with_default(Json schema, const Json& value) {
-  const bool says_something = schema.contains("enum") || value.is_number() || value.is_boolean() ||
-                              (value.is_array() && !value.empty());
-  if (says_something) schema["default"] = value;
-  return schema;
+          {expected, dictionary_schema(element.expected.schema)}};
 }
 
 Json schema_or_null(Json schema) {

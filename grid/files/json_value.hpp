@@ -66,17 +66,10 @@ class Cursor {
 };
 
 /// The expectation of a value: in words for messages, and as a JSON Schema for editors and the
-/// reference pages (schema.hpp). A schema is made on request; words without a schema allow
-/// anything.
+/// reference pages (format_pages.hpp).
 struct Expected {
-  Expected(const char* in_words) : words(in_words) {}  // NOLINT: a text is the usual case
-  Expected(std::string in_words) : words(std::move(in_words)) {}  // NOLINT
-  Expected(std::string in_words, std::function<Json()> as_schema)
-      : words(std::move(in_words)), schema(std::move(as_schema)) {}
-  operator const std::string&() const { return words; }  // NOLINT: messages use the words
-
   std::string words;
-  std::function<Json()> schema = [] { return Json::object(); };
+  Json schema;
 };
 
 inline const Json kLeftOut(Json::value_t::discarded);
@@ -199,19 +192,17 @@ Value<V> record_of(Of<V>) {
   return value_of_type<V>();
 }
 
-/// `schema` with that default if it is a number, a choice, a boolean or a non-empty list of these.
-/// Texts have no default.
-[[nodiscard]] Json with_default(Json schema, const Json& value);
-
 Value<int> integer(int least, int most);
 Value<std::string> one_of(const Words& names);
 
-/// A value by its name, such as an enum.
+/// A value by its name, such as an enum. One without a name is no choice: it stands for null.
 template <class E>
 Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
   using Named = std::pair<std::string, E>;
+  Words words = mapped(names, &Named::first);
+  std::erase(words, "");
   return converted<E>(
-      one_of(mapped(names, &Named::first)),
+      one_of(words),
       [names](const std::string& word) {
         return find_where(names, having(&Named::first, word))->second;
       },
@@ -246,10 +237,9 @@ Value<E> by_name(const std::vector<E>& values) {
 }
 /// The values of an enum up to this one.
 template <class E>
-Value<E> by_name_to(E last, E first = E{}) {
+Value<E> by_name_to(E last) {
   std::vector<E> values;
-  for (int i = static_cast<int>(first); i <= static_cast<int>(last); ++i)
-    values.push_back(static_cast<E>(i));
+  for (const auto i : each_below(as_size(last) + 1)) values.push_back(static_cast<E>(i));
   return by_name(values);
 }
 

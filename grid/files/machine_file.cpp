@@ -82,9 +82,7 @@ Json write_attachment(const Attachment& attachment) {
 Value<Attachment> attachment_value() {
   return {read_attachment,
           write_attachment,
-          {"a ring or brackets", [] {
-             return Json{{"oneOf", {ring_record().schema(), brackets_record().schema()}}};
-           }}};
+          {"a ring or brackets", {{"oneOf", {ring_record().schema(), brackets_record().schema()}}}}};
 }
 
 RECORD_OF(model::Chain, "a chain")

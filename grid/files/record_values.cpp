@@ -20,6 +20,8 @@ Value<Vector2d> pair_of_numbers(const Range& range, bool in_order) {
   const std::string expected =
       fmt::format("a pair of numbers{}{}{}", range.unit.empty() ? "" : " in ", range.unit,
                   in_order ? ", the lower one first" : "");
+  Json schema = numbers.expected.schema;
+  schema["maxItems"] = 2;
   return {[numbers, expected, in_order](const Cursor& at) -> std::optional<Vector2d> {
             const auto read = numbers.read(at);
             if (!read || read->size() < 2) return std::nullopt;
@@ -31,11 +33,7 @@ Value<Vector2d> pair_of_numbers(const Range& range, bool in_order) {
           [](const Vector2d& pair) {
             return Json::array({pair[0] + 0.0, pair[1] + 0.0});
           },
-          {expected, [numbers] {
-             Json schema = numbers.expected.schema();
-             schema["maxItems"] = 2;
-             return schema;
-           }}};
+          {expected, schema}};
 }
 
 Value<VectorXd> vector_of_numbers() {

@@ -46,9 +46,7 @@ Value<GridLevel> grid_size(int least) {
             return at.expect(expected);
           },
           [](const GridLevel& size) { return Json(fmt::format("{}x{}", size.columns, size.rows)); },
-          {expected, [] {
-             return Json{{"type", "string"}, {"pattern", "^[0-9]+x[0-9]+$"}};
-           }}};
+          {expected, {{"type", "string"}, {"pattern", "^[0-9]+x[0-9]+$"}}}};
 }
 
 auto noise_level_record() {
