@@ -7,6 +7,7 @@
 #include "grid/containers.hpp"
 #include "grid/files/maslow4_text.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/pattern.hpp"
 #include "grid/files/ranges.hpp"
 
 namespace chaintrue::grid::files {
@@ -187,13 +188,11 @@ class Scanner {
     for (std::size_t at = line.find('('); at != npos; at = line.find('(', at + 1)) {
       const std::size_t end = line.find(')', at);
       if (end == npos) return;
-      const std::string_view entry = line.substr(at + 1, end - at - 1);
-      const std::size_t colon = entry.find(':');
-      const std::size_t comma = entry.find(',');
-      if (colon == npos || comma == npos || comma < colon) continue;
-      const auto waypoint = waypoint_of(number_of(unquoted(entry.substr(0, colon))));
-      const auto x = number_of(unquoted(entry.substr(colon + 1, comma - colon - 1)));
-      const auto y = number_of(unquoted(entry.substr(comma + 1)));
+      const auto part = match(line.substr(at + 1, end - at - 1), "([^:,]*):([^,]*),(.*)");
+      if (part.empty()) continue;
+      const auto waypoint = waypoint_of(number_of(unquoted(part[1])));
+      const auto x = number_of(unquoted(part[2]));
+      const auto y = number_of(unquoted(part[3]));
       if (!waypoint || !x || !y) continue;
       run().commanded[*waypoint] = {*x, *y};
       run().last_announced = std::max(run().last_announced, *waypoint);

@@ -7,37 +7,18 @@
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/number_text.hpp"
-#include "grid/files/parse_double.hpp"
+#include "grid/files/pattern.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-/// The length of a colour code at `at` ("\x1b[0;32m", or "[0;32m" where a clipboard lost the first
-/// character); 0 if there is none.
-std::size_t colour_code(std::string_view text, std::size_t at) {
-  const bool has_escape = text[at] == '\x1b';
-  std::size_t next = at + (has_escape ? 1 : 0);
-  if (next >= text.size() || text[next] != '[') return has_escape ? 1 : 0;
-  const std::size_t first = ++next;
-  while (next < text.size() && (is_digit(text[next]) || text[next] == ';')) ++next;
-  if (next >= text.size()) return has_escape ? next - at : 0;
-  const bool is_code = has_escape ? is_letter(text[next]) : text[next] == 'm' && next > first;
-  return is_code ? next + 1 - at : has_escape ? 1 : 0;
-}
-
+/// Without control characters, and colour codes: "\x1b[0;32m", or "[0;32m" where a clipboard lost the
+/// first character.
 std::string cleaned(std::string_view line) {
-  std::string text;
-  for (std::size_t at = 0; at < line.size();) {
-    if (line[at] == '\x1b' || line[at] == '[') {
-      if (const std::size_t length = colour_code(line, at)) {
-        at += length;
-        continue;
-      }
-    }
-    const char c = line[at++];
-    if (c == '\t') text += ' ';
-    if (static_cast<unsigned char>(c) >= 0x20U && c != '\x7f') text += c;
-  }
+  std::string text = without(std::string(line),
+                             "\x1b(?:\\[[0-9;]{0,30}(?:[A-Za-z]|$))?|\\[[0-9;]{1,30}m");
+  std::replace(text.begin(), text.end(), '\t', ' ');
+  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == '\x7f'; });
   return text;
 }
 
@@ -69,15 +50,10 @@ bool is_other_output(std::string_view line) {
 }
 
 bool is_heading(std::string_view line) {
-  std::string word;
-  std::size_t at = line.find_first_not_of("/# \t");
-  for (; at < line.size() && is_letter(line[at]); ++at) {
-    word += in_lower_case(line[at]);
-  }
-  if (word != "run" || at >= line.size() || line[at] != ' ') return false;
-  const std::string_view rest = unquoted(line.substr(at));
-  constexpr std::size_t kLongestName = 12;
-  return !rest.empty() && !has(rest, ' ') && rest.size() <= kLongestName;
+  return !match(line,
+                "[/# \t]*[Rr][Uu][Nn] [ \t\r\"']*"
+                "[^ \t\r\"'](?:[^ ]{0,10}[^ \t\r\"'])?[ \t\r\"']*")
+              .empty();
 }
 
 std::vector<LogLine> log_lines(const std::string& text) {

@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/parse_double.hpp"
+#include "grid/files/pattern.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -63,25 +62,15 @@ std::optional<int> whole_number_of(std::string_view text, int least, int most) {
 
 std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least,
                                           int most) {
-  std::array<int, 2> pair{};
-  const char* const end = text.data() + text.size();
-  const auto [middle, first] = std::from_chars(text.data(), end, pair[0]);
-  if (first != std::errc{} || middle == end || *middle != between) return std::nullopt;
-  const auto [last, second] = std::from_chars(middle + 1, end, pair[1]);
-  const bool holds = std::min(pair[0], pair[1]) >= least && std::max(pair[0], pair[1]) <= most;
-  return second == std::errc{} && last == end && holds ? std::optional(pair) : std::nullopt;
+  const auto part = match(text, "([0-9]+)(.)([0-9]+)");
+  if (part.empty() || part[2].front() != between) return std::nullopt;
+  const auto first = whole_number_of(part[1], least, most);
+  const auto last = whole_number_of(part[3], least, most);
+  return first && last ? std::optional(std::array{*first, *last}) : std::nullopt;
 }
 
 bool looks_like_decimal_comma(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  if (comma == npos || text.find(',', comma + 1) != npos) {
-    return false;
-  }
-  if (comma == 0 || comma + 1 == text.size()) return false;
-  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return false;
-  return all_of(text, [](char c) {
-    return is_digit(c) || c == ',' || c == '.' || c == '-' || c == '+' || c == ' ';
-  });
+  return !match(text, "[-+. 0-9]*[0-9],[0-9][-+. 0-9]*").empty();
 }
 
 ProblemKind kind_of_bad_number(std::string_view text) {
@@ -105,122 +94,47 @@ std::optional<double> checked_number(std::string_view text, const std::string& p
   return std::nullopt;
 }
 
-namespace {
-
-using input_checks::kMmPerInch;
-constexpr double kInchesPerFoot = 12.0;
-/// The minus sign of spreadsheets and word processors.
-constexpr std::string_view kLongMinus = "\xE2\x88\x92";
-constexpr std::string_view kDoublePrime = "\xE2\x80\xB3";
-
-struct Unit {
-  std::string_view word;
-  double mm;
-};
-/// Longer words first if one ends in another.
-constexpr Unit kUnits[] = {{"mm", 1.0},
-                           {"cm", 10.0},
-                           {"m", 1000.0},
-                           {"inches", kMmPerInch},
-                           {"inch", kMmPerInch},
-                           {"in", kMmPerInch},
-                           {"\"", kMmPerInch},
-                           {"''", kMmPerInch},
-                           {kDoublePrime, kMmPerInch}};
-
-/// Removes the unit from the text's end.
-std::optional<double> take_unit(std::string_view& text) {
-  for (const Unit& unit : kUnits) {
-    if (!text.ends_with(unit.word)) continue;
-    text = trimmed(text.substr(0, text.size() - unit.word.size()));
-    return unit.mm;
-  }
-  return std::nullopt;
-}
-
-/// Digits alone: no sign, point or exponent.
-std::optional<double> whole(std::string_view text) {
-  const bool is_whole = !text.empty() && all_of(text, is_digit);
-  return is_whole ? number_of(text) : std::nullopt;
-}
-
-/// `13/16` or `43 13/16`, without a sign.
-std::optional<double> fraction(std::string_view text) {
-  double before = 0.0;
-  if (const std::size_t gap = text.find_first_of(" -"); gap != npos) {
-    const auto inches = whole(text.substr(0, gap));
-    if (!inches) return std::nullopt;
-    before = *inches;
-    text = trimmed(text.substr(gap + 1));
-  }
-  const std::size_t slash = text.find('/');
-  if (slash == npos) return std::nullopt;
-  const auto above = whole(text.substr(0, slash));
-  const auto below = whole(text.substr(slash + 1));
-  // 13/8 of an inch, or a date, is not a reading of a rule.
-  if (!above || !below || !(*above < *below)) return std::nullopt;
-  return before + *above / *below;
-}
-
-/// Removes feet from the text's front; the rest is inches.
-std::optional<double> take_feet(std::string_view& text) {
-  for (const std::string_view word : {"'", "\xE2\x80\xB2", "feet", "ft"}) {
-    const std::size_t at = text.find(word);
-    if (at == npos || text.substr(at).starts_with("''")) continue;
-    const auto feet = whole(trimmed(text.substr(0, at)));
-    if (feet) text = trimmed(text.substr(at + word.size()));
-    return feet;
-  }
-  return std::nullopt;
-}
-
-/// The inches after feet; 0 if there are none.
-std::optional<double> inches_behind_feet(std::string_view text) {
-  if (text.starts_with('-')) text = trimmed(text.substr(1));
-  if (text.empty()) return 0.0;
-  const auto unit = take_unit(text);
-  if (unit && *unit != kMmPerInch) return std::nullopt;
-  auto inches = fraction(text);
-  if (!inches && text.find_first_not_of("0123456789.") == npos) inches = number_of(text);
-  return inches && *inches < kInchesPerFoot ? inches : std::nullopt;
-}
-
-}  // namespace
-
 std::optional<std::string> fraction_of_date(std::string_view text) {
   constexpr std::string_view kMonths = "JanFebMarAprMayJunJulAugSepOctNovDec";
-  text = trimmed(text);
-  const std::size_t dash = text.find('-');
-  if (dash == npos) return std::nullopt;
-  const bool month_first = dash == 3;
-  const std::string_view name = month_first ? text.substr(0, dash) : text.substr(dash + 1);
-  const std::string_view below = month_first ? text.substr(dash + 1) : text.substr(0, dash);
-  const std::size_t at = kMonths.find(name);
-  if (name.size() != 3 || at == npos || at % 3 != 0 || below.size() > 2 || !whole(below))
-    return std::nullopt;
-  return std::to_string(at / 3 + 1) + "/" + std::to_string(static_cast<int>(*whole(below)));
+  const auto part =
+      match(trimmed(text), "([A-Z][a-z]{2})-([0-9]{1,2})|([0-9]{1,2})-([A-Z][a-z]{2})");
+  if (part.empty()) return std::nullopt;
+  const bool month_first = part[3].empty();
+  const std::size_t at = kMonths.find(part[month_first ? 1 : 4]);
+  if (at == npos || at % 3 != 0) return std::nullopt;
+  return fmt::format("{}/{}", at / 3 + 1, number_of(part[month_first ? 2 : 3]).value());
 }
 
 std::optional<double> length_with_unit_mm(std::string_view text) {
-  text = trimmed(text);
-  const bool has_long_minus = text.starts_with(kLongMinus);
-  const bool is_negative = has_long_minus || text.starts_with('-');
-  if (is_negative) text.remove_prefix(has_long_minus ? kLongMinus.size() : 1);
-  const double sign = is_negative ? -1.0 : 1.0;
-  if (const auto feet = take_feet(text)) {
-    const auto inches = inches_behind_feet(text);
-    if (!inches) return std::nullopt;
-    return sign * (*feet * kInchesPerFoot + *inches) * kMmPerInch;
+  using input_checks::kMmPerInch;
+  constexpr double kInchesPerFoot = 12.0;
+  // The sign, that of word processors too; whole feet; the whole inches before a fraction, and the
+  // fraction, or a decimal number; its unit.
+  const auto part = match(
+      trimmed(text),
+      "(?=.*[0-9])(-|\xE2\x88\x92)?[ \t]*"
+      "(?:([0-9]+)[ \t]*(?:'(?!')|\xE2\x80\xB2|feet|ft)[ \t]*(?:-[ \t]*)?)?"
+      "(?:(?:(?:([0-9]+)[ -][ \t]*)?([0-9]+)/([0-9]+)|([0-9]*[.]?[0-9].*?))[ \t]*"
+      "(mm|cm|m|inches|inch|in|\"|''|\xE2\x80\xB3)?)?");
+  if (part.empty()) return std::nullopt;
+  const auto number = [&part](std::size_t group) {
+    return number_of("0" + std::string(part[group])).value_or(std::nan(""));
+  };
+  const bool has_feet = !part[2].empty(), has_fraction = !part[4].empty();
+  const std::string_view unit = part[7];
+  double unit_mm = unit == "mm" ? 1.0 : unit == "cm" ? 10.0 : unit == "m" ? 1000.0 : kMmPerInch;
+  double value = has_fraction ? number(3) + number(4) / number(5) : number(6);
+  if (has_feet || has_fraction) {
+    // 13/8 of an inch, or a date, is not a reading of a rule.
+    const bool is_of_a_rule = unit_mm == kMmPerInch && (!has_fraction || number(4) < number(5)) &&
+                              (!has_feet || value < kInchesPerFoot);
+    if (!is_of_a_rule) return std::nullopt;
+    value += kInchesPerFoot * number(2);
+  } else if (unit.empty()) {
+    if (part[1].size() < 2) return std::nullopt;
+    unit_mm = 1.0;  // of its place; no other reader knows the long minus sign
   }
-  const auto unit = take_unit(text);
-  if (const auto inches = fraction(text)) {
-    if (unit && *unit != kMmPerInch) return std::nullopt;
-    return sign * *inches * kMmPerInch;
-  }
-  if (!unit && !has_long_minus) return std::nullopt;
-  const auto number = number_of(text);
-  if (!number || text.starts_with('-') || text.starts_with('+')) return std::nullopt;
-  const double mm = sign * *number * unit.value_or(1.0);
+  const double mm = (part[1].empty() ? 1.0 : -1.0) * value * unit_mm;
   return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
 }
 

@@ -6,7 +6,7 @@
 # Included, it defines chaintrue_public_includes(target). Run with SOURCE_DIR and OUTPUT_DIR (cmake -P),
 # it writes the copies; those that stay the same keep their time.
 set(public_folders interp model grid)
-set(private_headers "/(json_[a-z_]*|[a-z0-9_]*_record|[a-z_]*_keys|record_values|records|formats|printing[a-z_]*)\\.hpp$|/printing/")
+set(private_headers "/(json_[a-z_]*|[a-z0-9_]*_record|[a-z_]*_keys|pattern|record_values|records|formats|printing[a-z_]*)\\.hpp$|/printing/")
 
 function(chaintrue_find_public_headers source_dir result)
   set(found)

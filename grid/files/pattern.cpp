@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/pattern.hpp"
+
+#include <map>
+#include <regex>
+
+#include "grid/containers.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+/// No number or heading is longer. The library's matcher recurses for every character that it takes.
+constexpr std::size_t kLongest = 200;
+
+const std::regex& compiled(const char* pattern) {
+  thread_local std::map<const char*, std::regex> known;
+  return known.try_emplace(pattern, pattern).first->second;
+}
+
+}  // namespace
+
+std::vector<std::string_view> match(std::string_view text, const char* pattern) {
+  std::cmatch found;
+  if (text.size() <= kLongest)
+    std::regex_match(text.data(), text.data() + text.size(), found, compiled(pattern));
+  return mapped(found, [](const std::csub_match& part) {
+    return std::string_view(part.first, as_size(part.length()));
+  });
+}
+
+std::string without(const std::string& text, const char* pattern) {
+  return std::regex_replace(text, compiled(pattern), "");
+}
+
+}  // namespace chaintrue::grid::files
