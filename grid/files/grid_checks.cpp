@@ -184,7 +184,7 @@ struct GridChecks {
     }
     const input_checks::Findings found = input_checks::check_points(grid, places.written);
     if (found.whole && found.whole->is_doubtful) {
-      problems.doubt(places.all, found.whole->sentence(), found.whole->kind);
+      problems.warn(places.all, found.whole->sentence(), found.whole->kind);
     } else if (found.whole) {
       problems.explain(found.whole->from_row ? places.of(*found.whole->from_row, "") : places.all,
                        found.whole->kind, found.whole->sentence());
@@ -194,7 +194,7 @@ struct GridChecks {
       if (row.is_impossible) {
         problems.explain(places.of(row.row, ""), ProblemKind::doubtful_row, row.sentence);
       } else {
-        problems.doubt(places.of(row.row, ""), row.sentence, ProblemKind::doubtful_row);
+        problems.warn(places.of(row.row, ""), row.sentence, ProblemKind::doubtful_row);
       }
     }
     return false;

@@ -22,10 +22,6 @@ std::string_view InputProblem::name() const {
   return name_of(is_missing ? ProblemKind::missing : kind);
 }
 
-std::string Warning::message() const {
-  return InputProblem{file, place, "", "", sentence}.message();
-}
-
 InputError::InputError(std::vector<InputProblem> problems)
     : std::runtime_error(
           fmt::format("{}", fmt::join(mapped(problems, &InputProblem::message), "\n"))),

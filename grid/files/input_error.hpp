@@ -4,7 +4,6 @@
 /// found and what was expected.
 #pragma once
 
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -32,18 +31,9 @@ struct InputProblem {
   std::string_view name() const;
 };
 
-/// A problem that does not stop the reading; the caller prints it.
-struct Warning {
-  std::string file;
-  /// As in InputProblem.
-  std::string place;
-  /// A whole sentence.
-  std::string sentence;
-  /// The kind of a recognised mistake; empty for information.
-  std::optional<ProblemKind> kind = std::nullopt;
-  /// `grid.json: /points/3: ...`
-  std::string message() const;
-};
+/// A problem that does not stop the reading, in a sentence; the caller prints it. Its kind is
+/// unexpected unless it is that of a recognised mistake.
+using Warning = InputProblem;
 
 /// Thrown once, with all problems; the command turns it into exit code 3.
 class InputError : public std::runtime_error {

@@ -88,14 +88,13 @@ struct LeftOutPlace {
 /// Leaves these out and reports them.
 void leave_out(const std::vector<LeftOutPlace>& places, std::string_view rest, MeasuredBelts& belts,
                Indices& lines, Problems& problems) {
-  std::vector<Warning> left_out;
+  Problems left_out(problems.file());
   Indices kept = numbers_below(lines.size());
   for (const LeftOutPlace& own : places) {
     std::erase(kept, own.index);
-    left_out.push_back({problems.file(), line_place(lines[own.index]),
-                        fmt::format("this reading is left out: {}", own.why)});
+    left_out.warn(line_place(lines[own.index]), "this reading is left out: {}", own.why);
   }
-  warn_of(left_out, rest, problems);
+  warn_of(left_out.warnings(), rest, problems);
   keep_only(kept, belts.points);
   keep_only(kept, lines);
 }
@@ -164,19 +163,18 @@ void take_places(const ScannedRun& run, PointRange within, Orientation orientati
 
 void report_unreadable(const ScannedRun& run, PointRange within, std::size_t readable,
                        Problems& problems) {
-  std::vector<Warning> left_out;
+  Problems left_out(problems.file());
   for (std::size_t i = within.first; i <= within.last; ++i) {
     for (const InputProblem& problem : run.points[i].problems) {
       if (readable < kFewestBeltPoints) {
         problems.add(problem.place, problem.value, problem.kind, problem.expected);
       } else if (&problem == &run.points[i].problems.front()) {
-        left_out.push_back({problem.file, problem.place,
-                            fmt::format("this reading is left out: found {}, expected {}",
-                                        problem.value, problem.expected)});
+        left_out.warn(problem.place, "this reading is left out: found {}, expected {}",
+                      problem.value, problem.expected);
       }
     }
   }
-  warn_of(left_out, "further readings are damaged and left out", problems);
+  warn_of(left_out.warnings(), "further readings are damaged and left out", problems);
   if (run.list_is_short && !run.commanded.empty()) {
     problems.warn(line_place(run.points[within.first].line),
                   "the list has fewer readings than measured places, and which are missing is "

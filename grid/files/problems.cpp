@@ -72,12 +72,8 @@ void Problems::explain(std::string place, ProblemKind kind, std::string sentence
   list_.push_back({file_, std::move(place), {}, {}, std::move(sentence), kind});
 }
 
-void Problems::warn(std::string place, std::string sentence) {
-  warnings_.push_back({file_, std::move(place), std::move(sentence)});
-}
-
-void Problems::doubt(std::string place, std::string sentence, ProblemKind kind) {
-  warnings_.push_back({file_, std::move(place), std::move(sentence), kind});
+void Problems::warn(std::string place, std::string sentence, ProblemKind kind) {
+  warnings_.push_back({file_, std::move(place), {}, {}, std::move(sentence), kind});
 }
 
 void Problems::add_all(const std::vector<InputProblem>& found) { append_all(list_, found); }

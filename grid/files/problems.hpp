@@ -46,14 +46,12 @@ class Problems {
   }
   /// A recognised mistake: `sentence` describes it and what to do.
   void explain(std::string place, ProblemKind kind, std::string sentence);
-  void warn(std::string place, std::string sentence);
+  void warn(std::string place, std::string sentence, ProblemKind kind = ProblemKind::unexpected);
   template <class... Args>
   requires(sizeof...(Args) > 0) void warn(std::string place, fmt::format_string<Args...> sentence,
                                           Args&&... args) {
     warn(std::move(place), fmt::format(sentence, std::forward<Args>(args)...));
   }
-  /// Warns of what may be a mistake of this kind.
-  void doubt(std::string place, std::string sentence, ProblemKind kind);
   /// Adds those of another file that this one names.
   void add_all(const std::vector<InputProblem>& found);
   void add_warnings(const std::vector<Warning>& warnings);

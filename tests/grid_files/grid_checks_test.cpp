@@ -62,7 +62,8 @@ std::vector<std::string> said_of(const MeasuredGrid& grid, const MeasuredOptions
   std::vector<std::string> names;
   try {
     for (const Warning& warning : parse_grid(write_grid(grid), "grid.json", options).warnings)
-      names.emplace_back(warning.kind ? name_of(*warning.kind) : std::string_view(warning.place));
+      names.emplace_back(warning.kind != ProblemKind::unexpected ? warning.name()
+                                                                 : std::string_view(warning.place));
   } catch (const InputError& error) {
     for (const InputProblem& problem : error.problems()) names.emplace_back(problem.name());
   }

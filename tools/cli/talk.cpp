@@ -115,8 +115,8 @@ std::string with_name(std::string message, std::string_view name) {
 
 void print_warnings(const std::vector<Warning>& warnings) {
   for (const Warning& warning : warnings) {
-    say("{}",
-        warning.kind ? with_name(warning.message(), name_of(*warning.kind)) : warning.message());
+    const bool has_name = warning.kind != ProblemKind::unexpected;
+    say("{}", has_name ? with_name(warning.message(), warning.name()) : warning.message());
   }
 }
 
