@@ -50,7 +50,7 @@
 /// for optional and nullable. place(&Hole::commanded, ...) stands for its x_mm and its y_mm.
 ///
 /// Values: a Range, or its braces, for a number, a Record for an object or a list of objects,
-/// integer, choice and by_name (an enum by its names), one_of (a text from a list), list,
+/// integer, in_order and by_name (an enum by its names), one_of (a text from a list), list,
 /// dictionary, a pair of functions for a variant; a std::string, a bool, an index and a list of them
 /// need none, nor does a type with a RECORD_OF above or in a header. `Record::computed` sets and gets
 /// a key that is no member; `Record::custom` takes a pair of functions for any other value (a list

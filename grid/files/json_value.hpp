@@ -214,12 +214,6 @@ Value<E> choice_of(const std::vector<std::pair<std::string, E>>& names) {
       });
 }
 
-/// As above, of a list or a table of grid/files/names.hpp.
-template <class E, std::size_t n>
-Value<E> choice(const std::pair<std::string_view, E> (&names)[n]) {
-  return choice_of<E>({std::begin(names), std::end(names)});
-}
-
 /// One of words for the enumerators 0, 1, ...
 template <class E>
 Value<E> in_order(const Words& words) {

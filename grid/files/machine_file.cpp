@@ -119,7 +119,7 @@ RECORD_OF(model::Controller, "a controller")
 REQUIRED(kind,
          "The firmware, whose kinematics converts commands into chain lengths. ideal "
          "uses the machine file as it is.",
-         choice(kControllerKinds))
+         in_order<ControllerKind>(kControllerKinds))
 OPTIONAL(settings, "The firmware's settings, by GroundControl's names.",
          controller_settings_record())
 END_RECORD;
@@ -190,7 +190,7 @@ Record<ControllerSettings> controller_settings_record() {
     if (own.setting == &ControllerSettings::sled_weight_n) {
       settings.optional("chainoversprocket", "Side of the sprocket over which the chain leaves.",
                         &ControllerSettings::chain_over_sprocket_top,
-                        choice<bool>({{"Top", true}, {"Bottom", false}}));
+                        choice_of<bool>({{"Top", true}, {"Bottom", false}}));
     }
     settings.optional(own.key, own.meaning, own.setting, number_in(own.range.unit));
   }
@@ -210,7 +210,7 @@ OPTIONAL(name, "Name of the machine in messages and pages.")
 REQUIRED(bed, "The sheet that the machine can cut.")
 REQUIRED(motors, "Positions of the motors' axes.")
 REQUIRED(sprocket, "The sprocket on a motor.")
-REQUIRED(feed, "Side of the sprocket over which the chain leaves.", choice(kFeeds))
+REQUIRED(feed, "Side of the sprocket over which the chain leaves.", in_order<Feed>(kFeeds))
 REQUIRED(attachment, "How the chains are attached to the sled.", attachment_value())
 REQUIRED(chain, "The chain's mass and stretch.")
 OPTIONAL(chain_zero, "Added to every reading of a chain.", chain_zero_record())

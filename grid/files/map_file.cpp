@@ -19,7 +19,7 @@ FIELD(place, "x of the tool. Null in a list that is not filled in yet.",
 END_RECORD;
 
 RECORD_OF(OutsideRule, "behaviour outside the measured part")
-REQUIRED(way, "Behaviour outside the measured part.", choice(kOutsideWays))
+REQUIRED(way, "Behaviour outside the measured part.", in_order<Outside>(kOutsideWays))
 OPTIONAL(fade_width_mm, "For fade: distance over which the correction goes to zero.", kFadeWidthMm)
 END_RECORD;
 

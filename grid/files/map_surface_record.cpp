@@ -91,8 +91,8 @@ void check_model_part(const Cursor& at, ModelPart& part) {
 }
 
 RECORD_OF(interp::AxisEnds, "the conditions at both ends of an axis")
-REQUIRED(low, "At the smaller end.", choice(kEndConditions))
-REQUIRED(high, "At the larger end.", choice(kEndConditions))
+REQUIRED(low, "At the smaller end.", in_order<interp::EndCondition>(kEndConditions))
+REQUIRED(high, "At the larger end.", in_order<interp::EndCondition>(kEndConditions))
 END_RECORD;
 
 RECORD_OF(interp::TensorEnds, "the conditions at the edges")

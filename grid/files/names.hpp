@@ -7,11 +7,9 @@
 /// \endcode
 #pragma once
 
+#include <algorithm>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/map/compensation_map.hpp"
@@ -21,48 +19,34 @@
 
 namespace chaintrue::grid::files {
 
+/// Those of an enumeration, in the order of its enumerators.
 template <class E>
-using Named = std::pair<std::string_view, E>;
+struct NamesOf : Words {
+  using Words::Words;
+};
 
-inline constexpr Named<ControllerKind> kControllerKinds[] = {
-    {"ideal", ControllerKind::ideal},
-    {"maslow_classic", ControllerKind::maslow_classic},
-    {"holey", ControllerKind::holey},
-    {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter}};
-inline constexpr Named<Feed> kFeeds[] = {{"over_top", Feed::over_top},
-                                         {"off_bottom", Feed::off_bottom}};
-inline constexpr Named<Model> kModels[] = {
-    {"straight", Model::straight},         {"wrap", Model::wrap},
-    {"firmware", Model::firmware},         {"one_shot", Model::one_shot},
-    {"inextensible", Model::inextensible}, {"elastic", Model::elastic},
-    {"elastic_3d", Model::elastic_3d}};
-inline constexpr Named<interp::EndCondition> kEndConditions[] = {
-    {"not_a_knot", interp::EndCondition::not_a_knot},
-    {"natural", interp::EndCondition::natural},
-    {"parabolic", interp::EndCondition::parabolic},
-    {"clamped", interp::EndCondition::clamped}};
+inline const NamesOf<ControllerKind> kControllerKinds = {"ideal", "maslow_classic", "holey",
+                                                         "fluidnc_wallplotter"};
+inline const NamesOf<Feed> kFeeds = {"over_top", "off_bottom"};
+inline const NamesOf<Model> kModels = {"straight",     "wrap",    "firmware",  "one_shot",
+                                       "inextensible", "elastic", "elastic_3d"};
+inline const NamesOf<interp::EndCondition> kEndConditions = {"not_a_knot", "natural", "parabolic",
+                                                             "clamped"};
 /// What a map does beyond its points.
-inline constexpr Named<Outside> kOutsideWays[] = {{"continued", Outside::continued},
-                                                  {"refuse", Outside::refuse},
-                                                  {"fade", Outside::fade},
-                                                  {"linear", Outside::linear},
-                                                  {"clamp", Outside::clamp}};
+inline const NamesOf<Outside> kOutsideWays = {"continued", "refuse", "fade", "linear", "clamp"};
 /// From the top left.
-inline constexpr Named<VisitingOrder> kVisitingOrders[] = {
-    {"rows", {.rows = true, .serpentine = false}},
-    {"columns", {.rows = false, .serpentine = false}},
-    {"serpentine_rows", {.rows = true, .serpentine = true}},
-    {"serpentine_columns", {.rows = false, .serpentine = true}}};
+inline const Words kVisitingOrders = {"rows", "columns", "serpentine_rows", "serpentine_columns"};
 
-template <class E, std::size_t n>
-std::optional<E> named(const Named<E> (&names)[n], std::string_view word) {
-  const auto* found = find_where(names, having(&Named<E>::first, word));
-  return found != nullptr ? std::optional(found->second) : std::nullopt;
+template <class E>
+std::optional<E> named(const NamesOf<E>& names, std::string_view word) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<E>(found - names.begin());
 }
 
-template <class E, std::size_t n>
-std::vector<std::string> words_of(const Named<E> (&names)[n]) {
-  return mapped(names, [](const Named<E>& one) { return std::string(one.first); });
+inline std::optional<VisitingOrder> visiting_order(std::string_view word) {
+  if (!contains(kVisitingOrders, word)) return std::nullopt;
+  return VisitingOrder{.rows = word.ends_with("rows"), .serpentine = word.starts_with("serp")};
 }
 
 }  // namespace chaintrue::grid::files

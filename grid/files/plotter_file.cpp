@@ -80,7 +80,7 @@ REQUIRED(pin_spacing_mm,
 OPTIONAL(pin_rise_mm, "Height of the right point above the left.", kMillimetres)
 REQUIRED(motors, "Location of the motors with the pulleys or spools that count.",
          by_name_to(model::MotorPlace::gondola))
-OPTIONAL(feed, "Side of its pulley over which a cord leaves.", choice(kFeeds))
+OPTIONAL(feed, "Side of its pulley over which a cord leaves.", in_order<Feed>(kFeeds))
 OPTIONAL(pulley_radius_mm, "Radius of the cord on its pulley; 0: straight to the pin.",
          kMillimetres)
 REQUIRED(gondola, "What hangs on the cords.")

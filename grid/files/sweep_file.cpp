@@ -60,7 +60,7 @@ auto stated_machine_record() {
   REQUIRED(name, "Name of the machine in messages and pages.")
   REQUIRED(machine_file, "Path of the true machine, from this file.")
   SPARSE(stated_file, "Path of the machine that the owner assumes; default: the true one.")
-  OPTIONAL(model, "The physics used to simulate readings.", choice(kModels))
+  OPTIONAL(model, "The physics used to simulate readings.", in_order<Model>(kModels))
   OPTIONAL(unmodelled_mm, "Size of smooth errors outside every model.", kNoiseMm);
 }
 

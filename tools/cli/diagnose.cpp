@@ -56,7 +56,7 @@ void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
                  ProblemKind::contradiction);
   }
   const auto numbers =
-      visit_numbers(measured.points, *files::named(files::kVisitingOrders, command.assume_order));
+      visit_numbers(measured.points, *files::visiting_order(command.assume_order));
   if (!numbers) refuse_order(numbers.error(), ProblemKind::bad_syntax);
   for (const auto i : each_index(measured.points)) measured.points[i].order = (*numbers)[i];
 }
@@ -321,7 +321,7 @@ Example:
         "Another grid of the same machine, to test how well the result predicts it", one_grid,
         "to be left out, because it compares two grids"},
        {"--assume-order",
-        {c.assume_order, files::words_of(files::kVisitingOrders)},
+        {c.assume_order, files::kVisitingOrders},
         "Order of visits to assume if the points have none, in lines from the top left. "
         "Drift, skips and hysteresis need an order; the report notes the assumption",
         grid,

@@ -208,7 +208,7 @@ Example:
           "single grid"}},
         "residual"},
        {"--ends",
-        {c.ends, files::words_of(files::kEndConditions)},
+        {c.ends, files::kEndConditions},
         "End condition of direct splines",
         direct,
         "to be left out without --surface direct"}});

@@ -204,7 +204,7 @@ std::vector<std::size_t> points_left_out(const std::string& without) {
 
 void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual) {
   verb.has({{"--outside",
-             {option.way, files::words_of(files::kOutsideWays)},
+             {option.way, files::kOutsideWays},
              "Beyond the measured points: continued (smoothly), refuse, fade (to the machine "
              "without correction), linear or clamp; " +
                  usual},

@@ -31,7 +31,7 @@ struct OpticalCommand {
 int import_optical(const OpticalCommand& command) {
   files::OpticalOptions options = command.options;
   options.machine = read_machine_input(command.machine);
-  options.order = files::named(files::kVisitingOrders, command.order);
+  options.order = files::visiting_order(command.order);
   const MeasuredGrid scan = files::read(files::parse_optical, command.input, options);
   write_output(command.output, files::write_grid(scan));
   say("{} of {} squares were visited; the sheet is assumed to be placed by hand, within {} mm and "
@@ -59,7 +59,7 @@ Example:
         "The machine with the controller settings in force during the scan"},
        {"--pitch-mm", {c.options.pitch_mm, files::kOpticalPitchMm}, "Distance between squares"},
        {"--order",
-        {c.order, files::words_of(files::kVisitingOrders)},
+        {c.order, files::kVisitingOrders},
         "Order in which the squares were visited, if it is known"},
        {"-o,--output", writes(c.output, {Origin::measured}),
         "The grid file; - is standard output"}});

@@ -258,7 +258,7 @@ void add_simulate(Verb app) {
         "to be left out, because it applies to a sheet with marks only"},
        {"--model",
         {c.spec.model, model_of, "elastic",
-         fmt::format("one of {}", fmt::join(files::words_of(files::kModels), ", "))},
+         fmt::format("one of {}", fmt::join(files::kModels, ", "))},
         "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d",
         session | places,
         "to be left out, because it applies to chain lengths only"},
