@@ -18,10 +18,7 @@ namespace {
 
 /// Four decimals, without the zeros at their end.
 std::string to_type(double value) {
-  std::string text = fmt::format("{:.4f}", value);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
+  return fmt::format("{}", std::round(1e4 * value) / 1e4 + 0.0);
 }
 
 /// Every import has these; for a machine without them all lines are written.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -13,25 +12,19 @@
 #include "grid/belts/two_frames.hpp"
 #include "grid/containers.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/pattern.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr double kLeastPull = 1e-3;
-constexpr double kMostPull = 1e6;
-
 std::optional<BeltPull> pull_of(std::string_view text) {
-  using PullUnit = BeltPull::Unit;
-  constexpr std::array kPullUnits = {std::pair{std::string_view("mA"), PullUnit::milliampere},
-                                     std::pair{std::string_view("N"), PullUnit::newton},
-                                     std::pair{std::string_view(""), PullUnit::relative}};
-  for (const auto& [word, unit] : kPullUnits) {
-    if (!text.ends_with(word)) continue;
-    const auto value = number_of(text.substr(0, text.size() - word.size()));
-    if (!value || !(*value >= kLeastPull && *value <= kMostPull)) return std::nullopt;
-    return BeltPull{*value, unit};
-  }
-  return std::nullopt;
+  constexpr Range kPull{"", 1e-3, 1e6};
+  const auto part = match(text, "(.*?)(mA|N)?");
+  const auto value = part.empty() ? std::nullopt : number_of(part[1]);
+  if (!value || !kPull.holds(*value)) return std::nullopt;
+  return BeltPull{*value, part[2] == "mA"  ? BeltPull::Unit::milliampere
+                          : part[2] == "N" ? BeltPull::Unit::newton
+                                           : BeltPull::Unit::relative};
 }
 
 void give_pull(const BeltPull& pull, MeasuredBelts& belts) {

@@ -18,14 +18,9 @@ namespace {
 
 // The numbers on a mural's own page, by their names.
 constexpr const char* kTopDistance = "top distance";
-constexpr const char* kPulleyDiameter = "effective pulley diameter";
-constexpr const char* kHomedOffset = "homed step offset";
-constexpr const char* kBotMass = "bot mass";
-constexpr const char* kElongation = "belt elongation";
 constexpr const char* kExtended = "extended";
 constexpr const char* kMeasured = "measured";
 constexpr const char* kPolargraphWidth = "machine.width";
-constexpr const char* kBootLine = "Loaded ";
 
 bool has_line_with(const std::string& text, const std::string& begin) {
   return text.starts_with(begin) || has(text, "\n" + begin);
@@ -78,7 +73,7 @@ SettingTexts boot_log_texts(const std::string& text) {
       {"mm per rev", "machine.motors.mmPerRev"},
       {"motor steps per rev", "machine.motors.stepsPerRev"},
       {"motor step multiplier", "machine.step.multiplier"}};
-  SettingTexts texts = line_texts(text, ':', kBootLine);
+  SettingTexts texts = line_texts(text, ':', "Loaded ");
   for (const auto& [logged, name] : kNames) {
     auto own = texts.extract(logged);
     if (own.empty()) continue;
@@ -175,13 +170,13 @@ SetPlotter of_mural(const std::string& text, Problems& problems) {
   SetPlotter set;
   set.firmware = PlotterFirmware::mural;
   set.machine = model::mural(settings.need(kTopDistance, kCoordinateMm));
-  if (const auto diameter = settings.find(kPulleyDiameter, kPositive))
+  if (const auto diameter = settings.find("effective pulley diameter", kPositive))
     set.machine.pulley_radius_mm = 0.5 * *diameter;
-  if (const auto offset = settings.find(kHomedOffset, {"mm", -1000.0, 1000.0}))
+  if (const auto offset = settings.find("homed step offset", {"mm", -1000.0, 1000.0}))
     set.homed_offset_mm = *offset;
-  const auto mass = settings.find(kBotMass, {"kg", 0.01, 100.0});
+  const auto mass = settings.find("bot mass", {"kg", 0.01, 100.0});
   if (mass) set.machine.gondola.mass_kg = *mass;
-  if (const auto elongation = settings.find(kElongation, {"1/N", 0.0, 0.01}))
+  if (const auto elongation = settings.find("belt elongation", {"1/N", 0.0, 0.01}))
     set.machine.cord.compliance_per_n = *elongation;
   take_calibration(settings, set.machine, problems);
   settings.refuse_others();

@@ -86,35 +86,23 @@ std::optional<Provenance> made_by_of(const std::string& text, const std::string&
 namespace {
 
 /// A number's text depends on its value alone, however it was written.
-std::string scalar_text(const Json& value) {
-  return value.is_number() ? fmt::format("{}", value.get<double>() + 0.0) : compact_json(value);
-}
-
-void add(const Json& value, bool is_root, Sha256& hash) {
-  if (!value.is_structured()) {
-    hash.add(scalar_text(value));
-    return;
-  }
-  hash.add(value.is_object() ? "{" : "[");
+std::string hashed_text(const Json& value, bool is_root) {
+  if (value.is_number()) return fmt::format("{}", value.get<double>() + 0.0);
+  if (!value.is_structured()) return compact_json(value);
+  std::string text = value.is_object() ? "{" : "[";
   for (const auto& [key, element] : value.items()) {
     if (value.is_object()) {
       if (key == "comment" || (is_root && key == "content_hash")) continue;
-      hash.add(compact_json(key));
-      hash.add(":");
+      text += compact_json(key) + ":";
     }
-    add(element, false, hash);
-    hash.add(",");
+    text += hashed_text(element, false) + ",";
   }
-  hash.add(value.is_object() ? "}" : "]");
+  return text + (value.is_object() ? "}" : "]");
 }
 
 }  // namespace
 
-std::string content_hash(const Json& document) {
-  Sha256 hash;
-  add(document, true, hash);
-  return hash.text();
-}
+std::string content_hash(const Json& document) { return sha256(hashed_text(document, true)); }
 
 std::string print_with_hash(Json document) {
   std::string hash = content_hash(document);

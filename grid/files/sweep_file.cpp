@@ -207,13 +207,10 @@ ReadSweep read_sweep(const fs::path& path, const Words& effects) {
   check_effects(stated, problems);
   check_given(stated, std::move(given), problems);
   problems.throw_if_any();
-  Sha256 hash;
-  hash.add(write_document(sweep_record(), stated));
-  for (const sweep::MachineLevel& level : stated.machines) {
-    hash.add(write_machine(level.truth));
-    hash.add(write_machine(level.stated));
-  }
-  return {stated, hash.text(), problems.warnings()};
+  std::string inputs = write_document(sweep_record(), stated);
+  for (const sweep::MachineLevel& level : stated.machines)
+    inputs += write_machine(level.truth) + write_machine(level.stated);
+  return {stated, sha256(inputs), problems.warnings()};
 }
 
 }  // namespace chaintrue::grid::files

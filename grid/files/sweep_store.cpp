@@ -30,7 +30,7 @@ std::string header_of(const ReadSweep& read) {
 
 std::string check_of(std::string_view line) {
   constexpr std::size_t kDigits = 8;
-  return Sha256().add(line).text().substr(0, kDigits);
+  return sha256(std::string(line)).substr(0, kDigits);
 }
 
 std::string line_of(std::uint64_t cell, const CellResult& r) {
@@ -63,13 +63,11 @@ class Part {
     fs::create_directories(path_.parent_path(), error);
     std::ifstream before(path_, std::ios::binary | std::ios::ate);
     const bool has_header = before && before.tellg() >= static_cast<std::streamoff>(header.size());
-    if (has_header) before.seekg(-1, std::ios::end);
-    const bool is_torn = has_header && before.get() != '\n';
     file_.open(path_,
                has_header ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
     if (!file_) refuse(path_.string(), "", "a folder that can be written to");
-    if (!has_header) write(header);
-    if (is_torn) write("\n");
+    // The last line may be torn.
+    write(has_header ? "\n" : header);
   }
   void write(const std::string& text) {
     file_ << text << std::flush;

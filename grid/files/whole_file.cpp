@@ -46,7 +46,7 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
     refuse(name, fmt::format("a read error ({})", system_words(errno)),
            "a file that can be read to its end", ProblemKind::unreadable_file);
   }
-  note_source({name_without_folders(path), Sha256().add(text).text()});
+  note_source({name_without_folders(path), sha256(text)});
   return text;
 }
 

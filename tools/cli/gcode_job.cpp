@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -92,15 +91,10 @@ LineSource GcodeText::open(const WorkStep& step) const {
 }
 
 SourceFile GcodeText::source() const {
-  files::Sha256 hash;
-  std::string name = name_without_folders(path_);
-  if (text_) return {std::move(name), hash.add(*text_).text()};
+  const std::string name = name_without_folders(path_);
+  if (text_) return {name, files::sha256(*text_)};
   std::ifstream file(path_, std::ios::binary);
-  std::array<char, 65536> bytes{};
-  while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
-    hash.add({bytes.data(), as_size(file.gcount())});
-  }
-  return {std::move(name), hash.text()};
+  return {name, files::sha256(file)};
 }
 
 Words with_map_words(const GcodeOptions& options, Words words) {

@@ -131,7 +131,7 @@ CompensationMap with_settings_of(const std::string& settings, const std::string&
 
 bool was_made_from(const std::string& made, const std::string& from) {
   const auto made_by = files::made_by_of(read_whole_file(made), made);
-  const std::string hash = files::Sha256().add(read_whole_file(from)).text();
+  const std::string hash = files::sha256(read_whole_file(from));
   return made_by && any_of(made_by->inputs, having(&SourceFile::sha256, hash));
 }
 
