@@ -3,6 +3,7 @@
 /// Letters and blanks in a line of text, and what may stand before a text. Private to grid/files.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace chaintrue::grid::files {
@@ -28,6 +29,11 @@ constexpr char in_lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+inline std::string in_small_letters(std::string_view text) {
+  std::string small;
+  for (const char c : text) small += in_lower_case(c);
+  return small;
+}
 constexpr bool is_letter(char c) { return in_lower_case(c) >= 'a' && in_lower_case(c) <= 'z'; }
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }

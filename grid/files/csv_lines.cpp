@@ -7,6 +7,7 @@
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/parse_double.hpp"
+#include "grid/files/pattern.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -15,14 +16,6 @@ namespace {
 std::size_t digits_at(std::string_view text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
   return as_size(end - text.begin());
-}
-
-/// Of the sign that the text begins with; 0 for any other text.
-std::size_t size_of_one(std::initializer_list<std::string_view> signs, std::string_view text) {
-  for (const std::string_view sign : signs) {
-    if (text.starts_with(sign)) return sign.size();
-  }
-  return 0;
 }
 
 /// Digits, points and commas of a number, without its sign and unit; empty if it is not a number.
@@ -105,26 +98,16 @@ std::string rewritten(const std::string& text, const NumberMarks& marks) {
 }
 
 /// Long minus signs before digits become `-`, spaces that do not break go from between thousands and
-/// become spaces elsewhere.
+/// become spaces elsewhere: the usual one, the narrow one, thin and figure space.
 std::string with_plain_signs(std::string_view text) {
-  std::string result;
-  while (!text.empty()) {
-    if (const std::size_t minus = size_of_one({"\xE2\x88\x92", "\xE2\x80\x93"}, text);
-        minus > 0 && digits_at(text.substr(minus)) > 0) {
-      result += '-';
-      text.remove_prefix(minus);
-    } else if (const std::size_t space = size_of_one(
-                   // No-break space, the narrow one, thin and figure space.
-                   {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x87"}, text);
-               space > 0) {
-      text.remove_prefix(space);
-      const bool in_number = !result.empty() && is_digit(result.back()) && digits_at(text) == 3 &&
-                             (text.size() == 3 || text[3] != '/');
-      if (!in_number) result += ' ';
-    } else {
-      result += text.front();
-      text.remove_prefix(1);
-    }
+  std::string result(text);
+  if (any_of(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80U; })) {
+    result = replaced(result, "(?:\xE2\x88\x92|\xE2\x80\x93)(?=[0-9])", "-");
+    result = replaced(result,
+                      "([0-9])(?:\xC2\xA0|\xE2\x80\xAF|\xE2\x80\x89|\xE2\x80\x87)"
+                      "(?=[0-9]{3}(?![0-9/]))",
+                      "$1");
+    result = replaced(result, "\xC2\xA0|\xE2\x80\xAF|\xE2\x80\x89|\xE2\x80\x87", " ");
   }
   return std::string(trimmed(result));
 }

@@ -7,6 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
+#include "grid/files/pattern.hpp"
 #include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -47,18 +48,11 @@ struct ColumnName {
 
 /// `X (mm)`, `x [mm]` and `x_in` are x_mm.
 ColumnName column_name(std::string_view text) {
-  std::string name;
-  for (const char c : text) {
-    if (c == '(' || c == ')' || c == '[' || c == ']') continue;
-    const bool is_gap = c == ' ' || c == '_';
-    if (is_gap && (name.empty() || name.back() == '_')) continue;
-    name += is_gap ? '_' : in_lower_case(c);
-  }
-  for (const std::string_view unit : {"_inches", "_inch", "_in"}) {
-    if (name.ends_with(unit))
-      return {name.substr(0, name.size() - unit.size()) + "_mm", input_checks::kMmPerInch};
-  }
-  return {std::move(name)};
+  std::string name = replaced(in_small_letters(text), "[()]|\\[|\\]", "");
+  name = replaced(replaced(name, "[ _]{1,50}", "_"), "^_", "");
+  const auto part = match(name, "(.*)_(?:inches|inch|in)");
+  if (part.empty()) return {std::move(name)};
+  return {std::string(part[1]) + "_mm", input_checks::kMmPerInch};
 }
 
 /// The cell of a row in this column.

@@ -142,8 +142,8 @@ class Builder : public nlohmann::json_sax<Json> {
   std::string pointer() const {
     std::string text;
     for (const Json* level : open_)
-      text += "/" + (level->is_array() ? fmt::format("{}", level->size() - 1)
-                                       : pointer_token(std::prev(level->end()).key()));
+      text = level->is_array() ? pointer_below(text, level->size() - 1)
+                               : pointer_below(text, std::prev(level->end()).key());
     return text;
   }
 
@@ -198,7 +198,7 @@ void report_repeated_keys(const Json& value, const std::string& place, Problems&
   for (const auto& [key, element] : value.items()) {
     const bool is_repeated = value.is_object() && !keys.insert(key).second;
     if (!is_repeated && !element.is_structured()) continue;
-    const std::string own = place + "/" + pointer_token(key);
+    const std::string own = pointer_below(place, key);
     if (is_repeated)
       problems.add(own,
                    element.is_object()  ? "an object"
@@ -308,20 +308,6 @@ std::string compact_json(const Json& value) {
   for (const auto& [key, element] : value.items())
     parts.push_back(label_in(value, key) + compact_json(element));
   return in_brackets(value, joined(parts));
-}
-
-std::string pointer_token(std::string_view key) {
-  std::string token;
-  for (const char c : key) {
-    if (c == '~') {
-      token += "~0";
-    } else if (c == '/') {
-      token += "~1";
-    } else {
-      token += c;
-    }
-  }
-  return token;
 }
 
 }  // namespace chaintrue::grid::files

@@ -42,7 +42,10 @@ Json json_list(const Range& range, const Each& each) {
   return list;
 }
 
-/// `key` as one token of a JSON pointer.
-std::string pointer_token(std::string_view key);
+/// The JSON pointer of what has this key, or number, in the value at `parent`.
+template <class Key>
+std::string pointer_below(const std::string& parent, const Key& key) {
+  return (Json::json_pointer(parent) / key).to_string();
+}
 
 }  // namespace chaintrue::grid::files

@@ -66,9 +66,9 @@ std::string expected_list(const Codec& element, std::size_t fewest) {
 
 std::string Cursor::pointer() const {
   if (parent_ == nullptr) return {};
-  const std::string token =
-      parent_->json().is_array() ? fmt::format("{}", index_) : pointer_token(key_);
-  return parent_->pointer() + "/" + token;
+  const std::string parent = parent_->pointer();
+  return parent_->json().is_array() ? pointer_below(parent, index_)
+                                    : pointer_below(parent, std::string(key_));
 }
 
 Cursor Cursor::child(std::string_view key) const {

@@ -28,8 +28,8 @@ std::vector<std::string_view> match(std::string_view text, const char* pattern) 
   });
 }
 
-std::string without(const std::string& text, const char* pattern) {
-  return std::regex_replace(text, compiled(pattern), "");
+std::string replaced(const std::string& text, const char* pattern, const char* with) {
+  return std::regex_replace(text, compiled(pattern), with);
 }
 
 }  // namespace chaintrue::grid::files

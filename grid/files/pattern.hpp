@@ -20,7 +20,8 @@ namespace chaintrue::grid::files {
 /// `pattern` lives as long as the program.
 std::vector<std::string_view> match(std::string_view text, const char* pattern);
 
-/// The text without everything in it that is of this form, whose repetitions have an upper bound.
-std::string without(const std::string& text, const char* pattern);
+/// The text with everything in it that is of this form replaced, "$1" by its first group. Repetitions
+/// in such a pattern have an upper bound.
+std::string replaced(const std::string& text, const char* pattern, const char* with);
 
 }  // namespace chaintrue::grid::files

@@ -42,12 +42,6 @@ void refuse_more_settings(const std::string& place, Problems& problems) {
 
 }  // namespace
 
-std::string in_small_letters(std::string_view text) {
-  std::string small;
-  for (const char c : text) small += in_lower_case(c);
-  return small;
-}
-
 SettingReader::SettingReader(SettingTexts texts, Problems& problems, Words folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
   if (texts_.size() > kMostSettings) refuse_more_settings("", problems);

@@ -71,8 +71,6 @@ SettingTexts line_texts(const std::string& text, char separator, std::string_vie
 /// that are neither a section, an entry, a comment nor blank, and keys that occur twice in a section.
 SettingTexts ini_texts(std::string_view text, Problems& problems);
 
-std::string in_small_letters(std::string_view text);
-
 /// The anchors of FluidNC's WallPlotter, in its own coordinates; fluidnc_file.cpp.
 PerSide<model::MotorPosition> fluidnc_anchors(SettingReader& settings);
 
