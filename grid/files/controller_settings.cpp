@@ -93,12 +93,9 @@ std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& bef
 }
 
 std::string in_words(const std::vector<SettingChange>& changes) {
-  std::string words;
-  for (const SettingChange& change : changes) {
-    words += fmt::format("{}{} {} -> {}", words.empty() ? "" : ", ", change.name, change.before,
-                         change.now);
-  }
-  return words;
+  return joined(mapped(changes, [](const SettingChange& change) {
+    return fmt::format("{} {} -> {}", change.name, change.before, change.now);
+  }));
 }
 
 std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes) {

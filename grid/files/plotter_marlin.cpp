@@ -18,17 +18,14 @@ namespace {
 
 /// The words of the last line of such a code: "L-325.00" of M665 as M665/L.
 void add_code(const std::string& text, const std::string& code, SettingTexts& texts) {
-  std::istringstream lines(text);
-  std::size_t line_number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++line_number;
+  each_line(text, [&](std::string_view line, const std::string& place) {
     const std::size_t at = line.find(code + " ");
-    if (at == npos) continue;
-    std::istringstream words(line.substr(at + code.size()));
+    if (at == npos) return;
+    std::istringstream words(std::string(line.substr(at + code.size())));
     for (std::string word; words >> word && word[0] != ';';) {
-      if (word.size() > 1) texts[code + "/" + word[0]] = {word.substr(1), line_place(line_number)};
+      if (word.size() > 1) texts[code + "/" + word[0]] = {word.substr(1), place};
     }
-  }
+  });
 }
 
 /// Marlin's draw area, whose upper corners are its motors, and its home, in its own coordinates.

@@ -5,11 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/files/blanks.hpp"
+#include "grid/files/pattern.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -126,46 +125,34 @@ SettingTexts yaml_texts(const std::string& text, Problems& problems) {
   std::vector<Level> levels;
   SettingTexts texts;
   std::map<std::string, std::string> places;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; texts.size() <= kMostSettings && std::getline(lines, line);) {
-    ++number;
-    line.resize(std::min(line.find('#'), line.size()));
+  each_line(text, [&](std::string_view line, const std::string& place) {
+    line = line.substr(0, line.find('#'));
     const std::size_t indent = line.find_first_not_of(' ');
     const std::size_t colon = line.find(':');
-    if (indent == npos || colon == npos) continue;
+    if (indent == npos || colon == npos || texts.size() > kMostSettings) return;
     while (!levels.empty() && levels.back().indent >= indent) levels.pop_back();
-    const std::string key = line.substr(indent, colon - indent);
+    const std::string key(line.substr(indent, colon - indent));
     const std::string path = levels.empty() ? key : levels.back().path + "/" + key;
     levels.push_back({indent, path});
     const bool is_of_a_list = has(path, "/-") || path.starts_with("-");
-    if (!is_of_a_list && !is_first(places, path, line_place(number), trimmed(line), problems))
-      continue;
-    const std::string_view value = trimmed(std::string_view(line).substr(colon + 1));
-    if (!value.empty()) texts[path] = {std::string(value), line_place(number)};
-  }
+    if (!is_of_a_list && !is_first(places, path, place, trimmed(line), problems)) return;
+    const std::string value(trimmed(line.substr(colon + 1)));
+    if (!value.empty()) texts[path] = {value, place};
+  });
   return texts;
 }
 
 SettingTexts line_texts(const std::string& text, char separator, std::string_view before) {
   SettingTexts texts;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; texts.size() <= kMostSettings && std::getline(lines, line);) {
-    ++number;
-    const std::size_t begin = before.empty() ? 0 : line.find(before);
-    if (begin == npos || line.starts_with("#")) continue;
-    const std::string_view entry = std::string_view(line).substr(begin + before.size());
-    const std::size_t at = entry.find(separator);
-    if (at == npos) continue;
-    std::string_view value = trimmed(entry.substr(at + 1));
-    for (const std::string_view unit : {"mm", "kg", "1/N", "/N"}) {
-      if (!value.ends_with(unit)) continue;
-      value = trimmed(value.substr(0, value.size() - unit.size()));
-      break;
-    }
-    texts[std::string(trimmed(entry.substr(0, at)))] = {std::string(value), line_place(number)};
-  }
+  each_line(text, [&](std::string_view line, const std::string& place) {
+    const std::size_t begin = line.find(before);
+    if (begin == npos || line.starts_with("#") || texts.size() > kMostSettings) return;
+    std::string_view value = line.substr(begin + before.size());
+    if (!has(value, separator)) return;
+    const std::string key(trimmed(take_until(value, separator)));
+    const auto part = match(trimmed(value), "(.*?)[ \t]*(?:mm|kg|1/N|/N)?");
+    texts[key] = {std::string(part.empty() ? trimmed(value) : part[1]), place};
+  });
   return texts;
 }
 

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/files/blanks.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/problems.hpp"
 
@@ -58,6 +59,13 @@ class SettingReader {
   std::set<std::string> asked_;  ///< keys
   std::set<std::string> read_;   ///< paths
 };
+
+/// Calls `visit(line, place)` for each line.
+template <class Visit>
+void each_line(std::string_view text, const Visit& visit) {
+  for (std::size_t number = 1; !text.empty(); ++number)
+    visit(take_until(text, '\n'), line_place(number));
+}
 
 /// The part of YAML that FluidNC's settings use: keys by their indentation, and the value after the
 /// colon. "kinematics/WallPlotter/left_anchor_x". Reports keys that occur twice at one place.

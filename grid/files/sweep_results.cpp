@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "grid/containers.hpp"
 #include "grid/files/formats.hpp"
@@ -24,9 +26,9 @@ using sweep::SweepSpec;
 
 std::string csv_text(const std::string& word) {
   if (word.find_first_of(",\"\n") == npos) return word;
-  std::string quoted = "\"";
-  for (const char c : word) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+  std::ostringstream quoted;
+  quoted << std::quoted(word, '"', '"');
+  return quoted.str();
 }
 
 std::string csv_header() {
