@@ -30,16 +30,10 @@ std::string_view figures_of(std::string_view text) {
 
 /// `1,113` and `1,113,000.5` for a comma.
 bool is_grouped_by(std::string_view figures, char mark) {
-  std::size_t at = digits_at(figures);
-  if (at > 3 || at == figures.size() || figures[at] != mark) return false;
   // 0.125 is never meant as 125.
-  if (figures.front() == '0') return false;
-  while (at < figures.size() && figures[at] == mark) {
-    if (digits_at(figures.substr(at + 1)) != 3) return false;
-    at += 4;
-  }
-  const std::string_view rest = figures.substr(at);
-  return rest.empty() || (digits_at(rest.substr(1)) == rest.size() - 1);
+  return !match(figures, mark == ',' ? "[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:[.][0-9]*)?"
+                                     : "[1-9][0-9]{0,2}(?:[.][0-9]{3})+(?:,[0-9]*)?")
+              .empty();
 }
 
 /// How the numbers of a file are written.

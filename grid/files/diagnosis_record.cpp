@@ -26,16 +26,16 @@ Value<const Effect*> effect_word() {
         names.emplace_back(effect->id, effect);
   }
   const auto known = choice_of<const Effect*>(std::move(names));
-  return {[known](const Cursor& at) -> std::optional<const Effect*> {
-            const Effect* declared = at.json().is_string()
-                                         ? declared_in_document(at, at.json().get<std::string>())
-                                         : nullptr;
-            return declared != nullptr ? std::optional(declared) : known.read(at);
-          },
-          [](const Effect* const& effect) { return effect->id; },
-          // Declared effects have their own names.
-          {known.expected.words,
-           {{"type", "string"}, {"examples", known.expected.schema["enum"]}}}};
+  return {
+      [known](const Cursor& at) -> std::optional<const Effect*> {
+        const Effect* declared = at.json().is_string()
+                                     ? declared_in_document(at, at.json().get<std::string>())
+                                     : nullptr;
+        return declared != nullptr ? std::optional(declared) : known.read(at);
+      },
+      [](const Effect* const& effect) { return effect->id; },
+      // Declared effects have their own names.
+      {known.expected.words, {{"type", "string"}, {"examples", known.expected.schema["enum"]}}}};
 }
 
 bool acts_at(const Effect& effect, EffectSide side) { return contains(effect.sides, side); }

@@ -11,7 +11,7 @@
 #include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/formats.hpp"
-#include "grid/files/parse_double.hpp"
+#include "grid/files/pattern.hpp"
 #include "grid/files/records.hpp"
 #include "model/machine_ranges.hpp"
 
@@ -149,12 +149,7 @@ std::string noun_of(const Json& schema) {
 
 /// The link to an object's own table of keys, derived from its noun.
 std::string anchor_of(const std::string& noun) {
-  std::string anchor;
-  for (const char c : noun) {
-    if (c == ' ' || c == '-') anchor += '-';
-    if (is_letter(c) || is_digit(c)) anchor += in_lower_case(c);
-  }
-  return anchor;
+  return replaced(replaced(in_small_letters(noun), " ", "-"), "[^-a-z0-9]", "");
 }
 
 bool allows_null(const Json& schema) {

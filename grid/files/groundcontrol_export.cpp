@@ -17,9 +17,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// Four decimals, without the zeros at their end.
-std::string to_type(double value) {
-  return fmt::format("{}", std::round(1e4 * value) / 1e4 + 0.0);
-}
+std::string to_type(double value) { return fmt::format("{}", std::round(1e4 * value) / 1e4 + 0.0); }
 
 /// Every import has these; for a machine without them all lines are written.
 bool is_imported(const ControllerSettings& settings) {

@@ -300,8 +300,7 @@ void check_holes_together(const MeasuredHoles& set, std::size_t fewest_distances
   if (problems.any() || checks.check_other_unit()) return;
   checks.check_triangles(asked);
   for (const input_checks::RowFinding& row : asked)
-    problems.warn(places.distance(row.row, "distance_mm"), row.sentence,
-                   ProblemKind::doubtful_row);
+    problems.warn(places.distance(row.row, "distance_mm"), row.sentence, ProblemKind::doubtful_row);
   checks.check_enough(fewest_distances);
   if (!problems.any()) checks.check_tape_zero(tape_zero_is_stated);
 }

@@ -42,9 +42,7 @@ std::optional<std::string> word_among(const Cursor& at, const Words& names,
       ProblemKind::unknown_word);
 }
 
-Expected expected_word(const Words& names) {
-  return {quoted_choice(names), {{"enum", names}}};
-}
+Expected expected_word(const Words& names) { return {quoted_choice(names), {{"enum", names}}}; }
 
 Json number_schema(const Range& range) {
   // Excludes only meaningless numbers.

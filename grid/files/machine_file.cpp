@@ -80,9 +80,10 @@ Json write_attachment(const Attachment& attachment) {
 }
 
 Value<Attachment> attachment_value() {
-  return {read_attachment,
-          write_attachment,
-          {"a ring or brackets", {{"oneOf", {ring_record().schema(), brackets_record().schema()}}}}};
+  return {
+      read_attachment,
+      write_attachment,
+      {"a ring or brackets", {{"oneOf", {ring_record().schema(), brackets_record().schema()}}}}};
 }
 
 RECORD_OF(model::Chain, "a chain")

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "grid/belts/commands_check.hpp"
 #include "grid/containers.hpp"
@@ -143,21 +144,17 @@ static_assert(std::size(kByKind) == as_size(StopKind::log_ends) + 1);
 }  // namespace
 
 std::optional<StopKind> stop_of(std::string_view line) {
-  struct Sign {
-    std::string_view word;
-    StopKind kind;
-  };
-  constexpr std::array kSigns = {
-      Sign{"Critical error, measurements are not within", StopKind::gave_up_reading},
-      Sign{"measurements are not within", StopKind::readings_disagree},
-      Sign{"per-anchor RMS imbalance", StopKind::imbalance},
-      Sign{"did not converge", StopKind::not_converged},
-      Sign{"Find Anchors fit failed", StopKind::low_fitness},
-      Sign{"recompute failed", StopKind::low_fitness},
-      Sign{"stopped due to low fitness", StopKind::low_fitness},
-      Sign{"Center point deviation", StopKind::centre_off}};
-  for (const Sign& sign : kSigns) {
-    if (has(line, sign.word)) return sign.kind;
+  constexpr std::pair<std::string_view, StopKind> kSigns[] = {
+      {"Critical error, measurements are not within", StopKind::gave_up_reading},
+      {"measurements are not within", StopKind::readings_disagree},
+      {"per-anchor RMS imbalance", StopKind::imbalance},
+      {"did not converge", StopKind::not_converged},
+      {"Find Anchors fit failed", StopKind::low_fitness},
+      {"recompute failed", StopKind::low_fitness},
+      {"stopped due to low fitness", StopKind::low_fitness},
+      {"Center point deviation", StopKind::centre_off}};
+  for (const auto& [word, kind] : kSigns) {
+    if (has(line, word)) return kind;
   }
   if (has(line, "state change from Find") && has(line, "to Belts Extended"))
     return StopKind::went_back;

@@ -15,8 +15,8 @@ namespace {
 /// Without control characters, and colour codes: "\x1b[0;32m", or "[0;32m" where a clipboard lost the
 /// first character.
 std::string cleaned(std::string_view line) {
-  std::string text = replaced(
-      std::string(line), "\x1b(?:\\[[0-9;]{0,30}(?:[A-Za-z]|$))?|\\[[0-9;]{1,30}m", "");
+  std::string text =
+      replaced(std::string(line), "\x1b(?:\\[[0-9;]{0,30}(?:[A-Za-z]|$))?|\\[[0-9;]{1,30}m", "");
   std::replace(text.begin(), text.end(), '\t', ' ');
   std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == '\x7f'; });
   return text;

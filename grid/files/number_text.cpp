@@ -110,12 +110,12 @@ std::optional<double> length_with_unit_mm(std::string_view text) {
   constexpr double kInchesPerFoot = 12.0;
   // The sign, that of word processors too; whole feet; the whole inches before a fraction, and the
   // fraction, or a decimal number; its unit.
-  const auto part = match(
-      trimmed(text),
-      "(?=.*[0-9])(-|\xE2\x88\x92)?[ \t]*"
-      "(?:([0-9]+)[ \t]*(?:'(?!')|\xE2\x80\xB2|feet|ft)[ \t]*(?:-[ \t]*)?)?"
-      "(?:(?:(?:([0-9]+)[ -][ \t]*)?([0-9]+)/([0-9]+)|([0-9]*[.]?[0-9].*?))[ \t]*"
-      "(mm|cm|m|inches|inch|in|\"|''|\xE2\x80\xB3)?)?");
+  const auto part =
+      match(trimmed(text),
+            "(?=.*[0-9])(-|\xE2\x88\x92)?[ \t]*"
+            "(?:([0-9]+)[ \t]*(?:'(?!')|\xE2\x80\xB2|feet|ft)[ \t]*(?:-[ \t]*)?)?"
+            "(?:(?:(?:([0-9]+)[ -][ \t]*)?([0-9]+)/([0-9]+)|([0-9]*[.]?[0-9].*?))[ \t]*"
+            "(mm|cm|m|inches|inch|in|\"|''|\xE2\x80\xB3)?)?");
   if (part.empty()) return std::nullopt;
   const auto number = [&part](std::size_t group) {
     return number_of("0" + std::string(part[group])).value_or(std::nan(""));

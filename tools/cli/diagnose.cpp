@@ -55,8 +55,7 @@ void assume_order(const DiagnoseCommand& command, MeasuredGrid& measured) {
     refuse_order("to be left out, because these points have the order of their visits",
                  ProblemKind::contradiction);
   }
-  const auto numbers =
-      visit_numbers(measured.points, *files::visiting_order(command.assume_order));
+  const auto numbers = visit_numbers(measured.points, *files::visiting_order(command.assume_order));
   if (!numbers) refuse_order(numbers.error(), ProblemKind::bad_syntax);
   for (const auto i : each_index(measured.points)) measured.points[i].order = (*numbers)[i];
 }
