@@ -228,9 +228,9 @@ std::string absent_words(const Json& object, const std::string& key, const Json&
 }
 
 /// Tables of an object and of the objects in it, each noun once.
-class Tables {
- public:
-  explicit Tables(std::string& text) : text_(text) {}
+struct Tables {
+  std::string& text;
+  std::set<std::string> described = {};
 
   void add(const Json& schema) {
     if (schema.is_array()) {
@@ -244,14 +244,13 @@ class Tables {
     if (!schema.contains("properties")) return;
     if (!schema.contains("title")) return add(schema["additionalProperties"]);
     const std::string noun = noun_of(schema);
-    if (!described_.insert(noun).second) return;
+    if (!described.insert(noun).second) return;
     table(noun, schema);
     for (const auto& [key, property] : schema["properties"].items()) add(property);
   }
 
- private:
   void table(const std::string& noun, const Json& schema) {
-    const auto out = std::back_inserter(text_);
+    const auto out = std::back_inserter(text);
     fmt::format_to(out, "\n## {}\n\n| key | what it is | values | if absent |\n|---|---|---|---|\n",
                    noun);
     for (const auto& [key, property] : schema["properties"].items()) {
@@ -261,9 +260,6 @@ class Tables {
                      values_of(property), absent_words(schema, key, property));
     }
   }
-
-  std::string& text_;
-  std::set<std::string> described_;
 };
 
 }  // namespace
@@ -294,7 +290,7 @@ std::string write_format_page(std::string_view name) {
       "{4} --schema` prints the JSON Schema, with which editors complete and check such files. "
       "`chaintrue formats {4}` writes this page from the reader's tables.\n",
       d.title, d.about, d.format->file_type, d.format->version, name);
-  Tables(text).add(schema_with_units(d));
+  Tables{text}.add(schema_with_units(d));
   return text;
 }
 

@@ -26,13 +26,12 @@ bool is_imported(const ControllerSettings& settings) {
 }
 
 /// Collects the lines, with remarks on how each differs from the controller's present value.
-class Lines {
- public:
-  Lines(const Machine& machine, GroundcontrolText& out)
-      : imported_(is_imported(machine.controller.settings)), out_(out) {}
+struct Lines {
+  bool imported;
+  GroundcontrolText& out;
 
   void section(const std::string& name) {
-    out_.text += fmt::format("{}[{}]\n", out_.text.empty() ? "" : "\n", name);
+    out.text += fmt::format("{}[{}]\n", out.text.empty() ? "" : "\n", name);
   }
   void number(const std::string& key, double value, std::optional<double> now,
               std::string_view by) {
@@ -44,21 +43,17 @@ class Lines {
       return word(key, fmt::format("{}", *now));
     }
     // A setting missing from the imported file is written only if something changes it.
-    if (imported_ && !now && typed == "0") return;
+    if (imported && !now && typed == "0") return;
     word(key, typed);
-    if (now || imported_) changes(key, now ? fmt::format("{}", *now) : "not set", typed, by);
+    if (now || imported) changes(key, now ? fmt::format("{}", *now) : "not set", typed, by);
   }
   void word(const std::string& key, const std::string& word) {
-    out_.text += fmt::format("{} = {}\n", key, word);
+    out.text += fmt::format("{} = {}\n", key, word);
   }
   void changes(std::string_view key, const std::string& from, const std::string& to,
                std::string_view by) {
-    out_.remarks.push_back(fmt::format("{} changes from {} to {}, by {}", key, from, to, by));
+    out.remarks.push_back(fmt::format("{} changes from {} to {}, by {}", key, from, to, by));
   }
-
- private:
-  bool imported_;
-  GroundcontrolText& out_;
 };
 
 /// The pitch of a chain that its tolerance states.
@@ -134,7 +129,7 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
                                                std::string_view by) {
   const ControllerSettings& now = machine.controller.settings;
   GroundcontrolText out;
-  Lines lines(machine, out);
+  Lines lines{is_imported(now), out};
   const auto numbers = [&](std::initializer_list<std::string_view> keys) {
     for (const std::string_view key : keys) {
       const auto* own = find_where(kNumberKeys, having(&NumberKey::key, key));

@@ -143,43 +143,38 @@ void weigh(const ControllerSettings& numbers, Machine& machine, Problems& proble
 }
 
 /// The behaviour of releases before a setting existed, and a sentence for it.
-class OldReleases {
- public:
-  OldReleases(SettingReader& settings, Problems& problems)
-      : settings_(settings), problems_(problems) {}
+struct OldReleases {
+  SettingReader& settings;
+  Problems& problems;
+  Words assumed = {};
 
   /// The first of `words` if the file states none.
   std::string word(const char* key, const Words& words) {
-    if (settings_.look(key) != nullptr)
-      return settings_.find_word(key, words).value_or(words.front());
-    assumed_.push_back(fmt::format("{} {}", key, words.front()));
+    if (settings.look(key) != nullptr)
+      return settings.find_word(key, words).value_or(words.front());
+    assumed.push_back(fmt::format("{} {}", key, words.front()));
     return words.front();
   }
   /// For a missing setting; empty if it has always existed.
   std::optional<double> number(std::string_view key, const ControllerSettings& others) {
-    const auto assumed = [&](double value) {
-      assumed_.push_back(fmt::format("{} {:g}", key, value));
+    const auto assume = [&](double value) {
+      assumed.push_back(fmt::format("{} {:g}", key, value));
       return value;
     };
-    if (key == "chainpitch") return assumed(6.35);
-    if (key == "gearteeth") return assumed(10.0);
+    if (key == "chainpitch") return assume(6.35);
+    if (key == "gearteeth") return assume(10.0);
     if (key != "motorspacingx") return std::nullopt;
     // Until 2017 it was how far a motor is beyond the bed's side.
-    const auto beyond_mm = settings_.find("motoroffsetx", {"mm", 1.0, 10000.0});
+    const auto beyond_mm = settings.find("motoroffsetx", {"mm", 1.0, 10000.0});
     const auto width_mm = others.bed_width_mm;
     if (!beyond_mm || !width_mm) return std::nullopt;
-    return assumed(*width_mm + 2.0 * *beyond_mm);
+    return assume(*width_mm + 2.0 * *beyond_mm);
   }
   void say() const {
-    if (assumed_.empty()) return;
-    problems_.warn("", "assumed, as in releases of GroundControl without this setting: {}",
-                   fmt::join(assumed_, ", "));
+    if (assumed.empty()) return;
+    problems.warn("", "assumed, as in releases of GroundControl without this setting: {}",
+                  fmt::join(assumed, ", "));
   }
-
- private:
-  SettingReader& settings_;
-  Problems& problems_;
-  Words assumed_;
 };
 
 ControllerSettings read_numbers(SettingReader& settings, bool has_brackets, OldReleases& old) {
@@ -251,7 +246,7 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
                     unit->word, width->text, unit->mm));
     problems.throw_if_any();
   }
-  OldReleases old(settings, problems);
+  OldReleases old{settings, problems};
   const bool has_brackets =
       old.word("kinematicstype", {"Quadrilateral", "Triangular"}) == "Quadrilateral";
   const bool over_top = old.word("chainoversprocket", {"Top", "Bottom"}) == "Top";

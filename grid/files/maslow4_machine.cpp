@@ -9,40 +9,20 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// Applies settings of maslow.yaml; missing ones keep their values and are noted.
-class Settings {
- public:
-  Settings(const Maslow4Options& options, Words& assumed)
-      : problems_(options.settings_file),
-        reader_(options.settings ? yaml_texts(*options.settings, problems_) : SettingTexts{},
-                problems_),
-        assumed_(assumed) {
-    if (options.settings && reader_.empty()) {
-      problems_.add("", "no settings", ProblemKind::missing, "the machine's maslow.yaml");
-    }
-  }
-
+struct Settings : SettingReader {
   /// The value of the first of these keys that is present; false if none is.
   bool take(const Words& keys, double& value) {
     constexpr Range kSetting{"", -1e6, 1e6};
     for (const std::string& key : keys) {
-      if (reader_.look(key) == nullptr) continue;
-      value = reader_.find(key, kSetting).value_or(value);
+      if (look(key) == nullptr) continue;
+      value = find(key, kSetting).value_or(value);
       return true;
     }
     return false;
   }
-
-  void take_or_assume(const Words& keys, double& value, std::string_view what) {
-    if (!take(keys, value)) assumed_.push_back(fmt::format("{} of {:g} mm", what, value));
+  void take_or_assume(const Words& keys, double& value, std::string_view what, Words& assumed) {
+    if (!take(keys, value)) assumed.push_back(fmt::format("{} of {:g} mm", what, value));
   }
-
-  SettingReader& reader() { return reader_; }
-  Problems& problems() { return problems_; }
-
- private:
-  Problems problems_;
-  SettingReader reader_;
-  Words& assumed_;
 };
 
 /// The keys of a setting: today's name, and that of releases before July 2025.
@@ -55,7 +35,7 @@ Words keys_of(const std::string& key) {
 void take_names(Settings& settings, BeltMachine& machine) {
   const auto has = [&](std::size_t names) {
     return any_of(kBelts, [&](Belt belt) {
-      return settings.reader().look(keys_of(std::string(name(belt)) + "X")[names]) != nullptr;
+      return settings.look(keys_of(std::string(name(belt)) + "X")[names]) != nullptr;
     });
   };
   if (!has(0) && has(1)) machine.setting_names = model::SettingNames::top_level;
@@ -87,9 +67,9 @@ BeltMachine machine_of(const Maslow4Options& options, Settings& settings, Words&
   BeltMachine machine;
   take_names(settings, machine);
   take_anchors(settings, machine, assumed);
-  settings.take_or_assume(keys_of("armLength"), machine.arm_mm, "an arm");
+  settings.take_or_assume(keys_of("armLength"), machine.arm_mm, "an arm", assumed);
   settings.take_or_assume(keys_of("beltEndExtension"), machine.end_extension_mm,
-                          "an extension of the belt's end");
+                          "an extension of the belt's end", assumed);
   double spoilboard_mm = 0.0;
   double work_mm = 0.0;
   (void)settings.take(keys_of("spoilboardThickness"), spoilboard_mm);
@@ -97,7 +77,7 @@ BeltMachine machine_of(const Maslow4Options& options, Settings& settings, Words&
   machine.surface_mm = spoilboard_mm + work_mm;
   (void)settings.take(keys_of("Scale_X"), machine.scale_x);
   (void)settings.take(keys_of("Scale_Y"), machine.scale_y);
-  const auto vertical = settings.reader().find_word("Maslow_vertical", {"true", "false"});
+  const auto vertical = settings.find_word("Maslow_vertical", {"true", "false"});
   if (vertical)
     machine.orientation = *vertical == "true" ? Orientation::upright : Orientation::flat;
   if (options.orientation) {
@@ -119,12 +99,15 @@ std::optional<BeltPull> settings_pull(Settings& settings) {
 }  // namespace
 
 void take_machine(const Maslow4Options& options, Maslow4Import& result, Problems& problems) {
-  Settings settings(options, result.assumed);
+  Problems own(options.settings_file);
+  Settings settings{{options.settings ? yaml_texts(*options.settings, own) : SettingTexts{}, own}};
+  if (options.settings && settings.empty())
+    own.add("", "no settings", ProblemKind::missing, "the machine's maslow.yaml");
   result.belts.machine = machine_of(options, settings, result.assumed);
   result.settings_pull = settings_pull(settings);
-  settings.reader().warn_of_others("describes the anchors of the belts");
-  problems.add_warnings(settings.problems().warnings());
-  problems.add_all(settings.problems().list());
+  settings.warn_of_others("describes the anchors of the belts");
+  problems.add_warnings(own.warnings());
+  problems.add_all(own.list());
   problems.add_all("the settings' ", problems_of(result.belts.machine));
 }
 
