@@ -44,14 +44,9 @@ std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
       if (measured.count({a, b}) == 0) others.push_back({.from = a, .to = b});
     }
   }
-  stable_sort(others, [&](const auto& a, const auto& b) {
-    return commanded_mm(set, a) > commanded_mm(set, b);
-  });
-  Words words;
-  for (std::size_t i = 0; i < others.size() && i < count; ++i) {
-    words.push_back(words_of(set, others[i]));
-  }
-  return joined(words);
+  stable_sort(others, descending([&](const HoleDistance& own) { return commanded_mm(set, own); }));
+  others.resize(std::min(others.size(), count));
+  return joined(mapped(others, [&](const HoleDistance& own) { return words_of(set, own); }));
 }
 
 /// Reports to `problems`.
@@ -116,39 +111,34 @@ struct HolesChecks {
   /// Checks each triangle with three measured sides: the longest is no longer than the sum of the
   /// others, within the tape's error.
   void check_triangles(const std::vector<input_checks::RowFinding>& asked) const {
-    std::map<Pair, std::size_t> first;
-    for (const auto i : each_index(set.distances)) {
-      if (!set.distances[i].edge) first.emplace(pair_of(set.distances[i]), i);
+    std::map<Pair, const HoleDistance*> first;
+    for (const HoleDistance& distance : set.distances) {
+      if (!distance.edge) first.emplace(pair_of(distance), &distance);
     }
-    for (const auto& [ab, index_ab] : first) {
+    for (const auto& [ab, side_ab] : first) {
       for (std::size_t c = ab.second + 1; c < set.holes.size(); ++c) {
         const auto ac = first.find({ab.first, c});
         const auto bc = first.find({ab.second, c});
         if (ac == first.end() || bc == first.end()) continue;
-        std::array<std::size_t, 3> sides = {index_ab, ac->second, bc->second};
-        sort(sides, [&](std::size_t i, std::size_t j) {
-          return set.distances[i].distance_mm > set.distances[j].distance_mm;
-        });
-        double excess = length_of(set, set.distances[sides[0]]);
-        double variance = std::pow(sigma_of(set, set.distances[sides[0]]), 2);
-        for (const std::size_t side : {sides[1], sides[2]}) {
-          excess -= length_of(set, set.distances[side]);
-          variance += std::pow(sigma_of(set, set.distances[side]), 2);
-        }
+        std::array sides = {side_ab, ac->second, bc->second};
+        sort(sides, descending(&HoleDistance::distance_mm));
+        const auto& [longest, second, third] = sides;
+        const double excess =
+            length_of(set, *longest) - length_of(set, *second) - length_of(set, *third);
+        const double sigma =
+            std::hypot(sigma_of(set, *longest), sigma_of(set, *second), sigma_of(set, *third));
         constexpr double kBeyondChance = 5.0;  // sigmas: one triangle in some million
-        if (excess <= kBeyondChance * std::sqrt(variance)) continue;
+        if (excess <= kBeyondChance * sigma) continue;
         std::string question;
         for (const input_checks::RowFinding& row : asked) {
-          if (contains(sides, row.row)) question += fmt::format(". {}", row.sentence);
+          if (contains(sides, &set.distances[row.row])) question += ". " + row.sentence;
         }
-        problems.add(
-            places.distance(sides[0], "distance_mm"),
-            fmt::format("{:g}", set.distances[sides[0]].distance_mm), ProblemKind::contradiction,
-            "at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
-            "{} ({:g}); one of the three was misread{}",
-            set.distances[sides[0]].distance_mm - excess, words_of(set, set.distances[sides[0]]),
-            words_of(set, set.distances[sides[1]]), set.distances[sides[1]].distance_mm,
-            words_of(set, set.distances[sides[2]]), set.distances[sides[2]].distance_mm, question);
+        problems.add(places.distance(as_size(longest - set.distances.data()), "distance_mm"),
+                     fmt::format("{:g}", longest->distance_mm), ProblemKind::contradiction,
+                     "at most {:.1f} mm, because {} cannot be longer than {} ({:g}) plus "
+                     "{} ({:g}); one of the three was misread{}",
+                     longest->distance_mm - excess, words_of(set, *longest), words_of(set, *second),
+                     second->distance_mm, words_of(set, *third), third->distance_mm, question);
       }
     }
   }

@@ -71,11 +71,11 @@ int visit(const VisitingOrder& order, int row, int column) {
 
 /// Numbers the visited squares from 0 without gaps.
 void number_visits(std::vector<MeasuredPoint>& points) {
-  std::vector<MeasuredPoint*> in_order;
-  for (MeasuredPoint& point : points) in_order.push_back(&point);
-  sort(in_order,
-       [](const MeasuredPoint* a, const MeasuredPoint* b) { return *a->order < *b->order; });
-  for (const auto i : each_index(in_order)) in_order[i]->order = as_int(i);
+  const std::vector<MeasuredPoint> all = points;
+  for (MeasuredPoint& point : points) {
+    point.order = as_int(count_where(
+        all, [order = point.order](const MeasuredPoint& other) { return other.order < order; }));
+  }
 }
 
 }  // namespace
