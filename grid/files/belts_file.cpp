@@ -69,13 +69,12 @@ ReadBelts parse_belts(const std::string& text, const std::string& file, const In
     leave_out(without, read.belts, problems);
   }
   const PointIndices indices = indices_without(read.belts.points.size(), without);
-  const BeltPlaces places{"/points",
-                          [&indices](std::size_t index, std::string_view field) {
-                            const std::size_t place = index_in_file(indices, index);
-                            return field.empty() ? fmt::format("/points/{}", place)
-                                                 : fmt::format("/points/{}/{}", place, field);
-                          },
-                          "/machine"};
+  const BeltPlaces places{
+      "/points",
+      [&indices, of = place_in_json("/points")](std::size_t index, std::string_view field) {
+        return of(index_in_file(indices, index), field);
+      },
+      "/machine"};
   check_belt_points(read.belts, places, problems);
   if (without.empty()) check_belt_distances(read.belts, problems);
   problems.throw_if_any();

@@ -20,14 +20,6 @@ constexpr std::string_view kOfTheChain[] = {"chainpitch", "gearteeth", "chainove
 constexpr std::string_view kZeroUnlessSet[] = {"topbeamtilt", "leftchaintolerance",
                                                "rightchaintolerance"};
 
-std::vector<NamedSetting> anchors_of(const Machine& machine) {
-  const auto number = [](double value) { return fmt::format("{}", value); };
-  return {{"left_anchor_x", number(machine.motors.left.x_mm)},
-          {"left_anchor_y", number(machine.motors.left.y_mm)},
-          {"right_anchor_x", number(machine.motors.right.x_mm)},
-          {"right_anchor_y", number(machine.motors.right.y_mm)}};
-}
-
 const NamedSetting* find(const std::vector<NamedSetting>& settings, const std::string& name) {
   return find_where(settings, having(&NamedSetting::name, name));
 }
@@ -54,20 +46,20 @@ bool are_equal(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::vector<NamedSetting> settings_in_force(const Machine& machine) {
-  std::vector<NamedSetting> settings;
-  switch (machine.controller.kind) {
-    case ControllerKind::fluidnc_wallplotter:
-      return anchors_of(machine);
-    case ControllerKind::ideal:
-      for (const Setting setting : kMachineSettings) {
-        settings.push_back(
-            {std::string(name(setting)), fmt::format("{}", stated_value(machine, setting))});
-      }
-      return settings;
-    default:
-      break;
+  Json json = Json::object();
+  if (machine.controller.kind == ControllerKind::fluidnc_wallplotter) {
+    const auto& [left, right] = machine.motors;
+    json = {{"left_anchor_x", left.x_mm},
+            {"left_anchor_y", left.y_mm},
+            {"right_anchor_x", right.x_mm},
+            {"right_anchor_y", right.y_mm}};
+  } else if (machine.controller.kind == ControllerKind::ideal) {
+    for (const Setting setting : kMachineSettings)
+      json[std::string(name(setting))] = stated_value(machine, setting);
+  } else {
+    json = controller_settings_record().write(machine.controller.settings);
   }
-  const Json json = controller_settings_record().write(machine.controller.settings);
+  std::vector<NamedSetting> settings;
   for (const auto& [name, value] : json.items()) {
     settings.push_back({name, value.is_string() ? value.get<std::string>()
                                                 : fmt::format("{}", value.get<double>())});

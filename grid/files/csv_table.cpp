@@ -101,12 +101,10 @@ std::vector<CellOfColumn> match_header(const CsvRow& header, const std::vector<C
   const bool numbers = all_of(header, [](const CsvCell& cell) {
     return is_number(cell.text) || looks_like_decimal_comma(cell.text);
   });
-  const auto is_there = [&](std::string_view name) { return contains(found, name); };
-  if (is_there("x_mm") && is_there("y_mm") && found.size() <= 3) {
+  if (contains(found, "x_mm") && contains(found, "y_mm") && found.size() <= 3) {
     remarks += "; these are only places, without measurements";
   } else if (any_of(found, [](const std::string& name) {
-               return any_of(std::initializer_list<const char*>{"distance", "length", "measured"},
-                             [&](const char* word) { return name.find(word) != name.npos; });
+               return has(name, "distance") || has(name, "length") || has(name, "measured");
              })) {
     remarks += fmt::format("; {}", kLengthsBetween);
   }

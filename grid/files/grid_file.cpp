@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 
 #include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
@@ -181,17 +180,17 @@ ReadGrid parse_json_grid(const std::string& text, const MeasuredOptions& options
 }
 
 /// A row without any of its readings is blank; one with half of them is reported.
-void take_blanks(const CsvLine& line, bool commanded, EnteredPoint& point, Problems& problems) {
+void take_blanks(const CsvLine& line, const std::vector<CsvColumn>& columns, bool commanded,
+                 EnteredPoint& point, Problems& problems) {
   const std::size_t first = commanded ? 0 : 2;  // columns x_mm and y_mm, or left_mm and right_mm
   const bool has_first = line.values[first].has_value();
   const bool has_second = line.values[first + 1].has_value();
   point.is_blank = !has_first && !has_second;
   if (has_first == has_second) return;
-  constexpr const char* kNames[] = {"x_mm", "y_mm", "left_mm", "right_mm"};
   const std::size_t missing = has_first ? first + 1 : first;
-  const Range& range = commanded ? kCoordinateMm : kLengthMm;
   problems.add(line.cells[missing].place(), "", ProblemKind::left_blank,
-               "{} ({}), or both left blank", range.expected(), kNames[missing]);
+               "{} ({}), or both left blank", columns[missing].range.expected(),
+               columns[missing].name);
 }
 
 ReadGrid parse_csv_grid(const std::string& text, const MeasuredOptions& options,
@@ -220,19 +219,15 @@ ReadGrid parse_csv_grid(const std::string& text, const MeasuredOptions& options,
     if (row[2] && row[3]) point.lengths = {*row[2], *row[3]};
     if (row[5] && row[6]) point.commanded = {*row[5], *row[6]};
     const std::size_t problems_before = problems.list().size();
-    if (line.is_clean) take_blanks(line, commanded, entered, problems);
+    if (line.is_clean) take_blanks(line, columns, commanded, entered, problems);
     if (line.is_clean && !entered.is_blank && problems.list().size() == problems_before) {
       check_parts({row[2].has_value(), row[3].has_value(), row[5].has_value(), row[6].has_value()},
                   line.cells.front().place(), problems);
     }
-    if (row[kOrder]) {
-      if (*row[kOrder] == std::floor(*row[kOrder])) {
-        point.order = static_cast<int>(*row[kOrder]);
-      } else {
-        const CsvCell& cell = line.cells[kOrder];
-        problems.add(cell.place(), cell.text, ProblemKind::not_a_number, "a whole number (order)");
-      }
-    }
+    const CsvCell& order = line.cells[kOrder];
+    if (row[kOrder]) point.order = whole_number_of(order.text, 0, kLargestOrder);
+    if (row[kOrder] && !point.order)
+      problems.add(order.place(), order.text, ProblemKind::not_a_number, "a whole number (order)");
     entered.is_spoilt = !line.is_clean || problems.list().size() > problems_before;
   }
   const PointPlaces places{

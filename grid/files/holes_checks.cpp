@@ -235,13 +235,14 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     if (holes[i].name.empty()) holes[i].name = fmt::format("{}", i);
     const std::string& name = holes[i].name;
     if (edge_of(name)) {
-      problems.add(places.hole(i), name, ProblemKind::repeated_value,
+      problems.add(places.hole(i, ""), name, ProblemKind::repeated_value,
                    "a name that is not an edge of the sheet");
     }
     const auto [other, is_new] = first.emplace(name, i);
     if (!is_new) {
-      problems.add(places.hole(i), name, ProblemKind::repeated_value,
-                   "a different name for each hole; {} has the same", places.hole(other->second));
+      problems.add(places.hole(i, ""), name, ProblemKind::repeated_value,
+                   "a different name for each hole; {} has the same",
+                   places.hole(other->second, ""));
     }
   }
 }

@@ -144,8 +144,7 @@ ReadHoles parse_json_holes(const std::string& text, const MeasuredOptions& optio
   const Json json = parse_json(text, problems);
   auto stated = holes_record().read(Cursor(json, problems), true);
   if (!stated) problems.throw_if_any();
-  const HolesPlaces places{"/holes", "/distances",
-                           [](std::size_t index) { return fmt::format("/holes/{}", index); },
+  const HolesPlaces places{"/holes", "/distances", place_in_json("/holes"),
                            place_in_json("/distances")};
   return finish(std::move(stated.value()), places, options, problems);
 }

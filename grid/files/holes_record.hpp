@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +37,7 @@ struct StatedDistance {
 struct HolesPlaces {
   std::string holes;
   std::string distances;
-  std::function<std::string(std::size_t index)> hole;
+  PlaceOf hole;
   PlaceOf distance;
   input_checks::Written written = input_checks::Written::in_json;
 };

@@ -121,7 +121,9 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
   problems.throw_if_any();
   HolesPlaces places{
       "the holes", "the distances",
-      [cells = std::move(hole_cells)](std::size_t index) { return cells[index].place(); },
+      [cells = std::move(hole_cells)](std::size_t index, std::string_view) {
+        return cells[index].place();
+      },
       [cells = std::move(distance_cells)](std::size_t index, std::string_view field) {
         const CsvRow& own = cells[index];
         const bool is_sigma = field == "sigma_mm";

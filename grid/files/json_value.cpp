@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "grid/containers.hpp"
-
 namespace chaintrue::grid::files {
 namespace {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "grid/files/maslow4_scan.hpp"
 #include "grid/files/maslow4_text.hpp"

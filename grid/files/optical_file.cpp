@@ -8,7 +8,6 @@
 #include "grid/containers.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/grid_checks.hpp"
-#include "grid/files/ranges.hpp"
 #include "grid/files/sources.hpp"
 
 namespace chaintrue::grid::files {
@@ -89,17 +88,12 @@ MeasuredGrid parse_optical(const std::string& text, const std::string& file,
                  "\"holey\" or \"fluidnc_wallplotter\") and its settings");
   }
   const std::vector<CsvRow> rows = read_rows(text, problems);
-  const auto error = [&](std::size_t row, std::size_t column) {
-    const CsvCell& cell = rows[row][column];
-    return checked_number(cell.text, cell.place(), row < kRows ? "error in x" : "error in y",
-                          kError, problems)
-        .value_or(0.0);
-  };
-  std::vector<std::vector<double>> errors;
-  for (const auto r : each_index(rows)) {
-    errors.emplace_back();
-    for (const auto c : each_index(rows[r])) errors.back().push_back(error(r, c));
-  }
+  const auto errors = mapped(rows, [&](const CsvRow& row) {
+    const char* name = &row < rows.data() + kRows ? "error in x" : "error in y";
+    return mapped(row, [&](const CsvCell& cell) {
+      return checked_number(cell.text, cell.place(), name, kError, problems).value_or(0.0);
+    });
+  });
   problems.throw_if_any();
   MeasuredGrid grid;
   grid.name = name_without_folders(file);

@@ -27,12 +27,9 @@ std::vector<MarkPoint> parse_points(const std::string& text, const std::string& 
                                                {"commanded_y_mm", kCoordinateMm, is_sheet}},
                                               problems);
   problems.throw_if_any();
-  std::vector<MarkPoint> points;
-  points.reserve(lines.size());
-  const std::size_t x = is_sheet ? 6 : 0;
-  for (const CsvLine& line : lines)
-    points.push_back({line.values[x].value(), line.values[x + 1].value()});
-  return points;
+  return mapped(lines, [x = is_sheet ? 6U : 0U](const CsvLine& line) {
+    return MarkPoint{line.values[x].value(), line.values[x + 1].value()};
+  });
 }
 
 std::vector<MarkPoint> read_points(const std::filesystem::path& path) {

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "grid/containers.hpp"
-#include "grid/files/blanks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

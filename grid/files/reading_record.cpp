@@ -48,11 +48,7 @@ void check_reading(const Cursor& at, ExtraReading& reading) {
 
 }  // namespace
 
-Value<ReadingOf> reading_name() {
-  std::vector<std::pair<std::string, ReadingOf>> names;
-  for (const ReadingKind& kind : reading_kinds()) names.emplace_back(name(kind.what), kind.what);
-  return choice_of<ReadingOf>(std::move(names));
-}
+Value<ReadingOf> reading_name() { return by_name(mapped(reading_kinds(), &ReadingKind::what)); }
 
 Record<ExtraReading> reading_record() {
   constexpr double kAny = 1e6;

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "grid/containers.hpp"
 
 namespace chaintrue::grid::files {
@@ -73,10 +71,9 @@ void report_impossible(const Cursor& at, const std::vector<MachineProblem>& foun
 }
 
 Value<Setting> setting_word() {
-  std::vector<std::pair<std::string, Setting>> names;
-  for (auto setting : kMachineSettings) names.emplace_back(name(setting), setting);
-  for (auto setting : model::kSheetSettings) names.emplace_back(name(setting), setting);
-  return choice_of<Setting>(std::move(names));
+  std::vector<Setting> all(std::begin(kMachineSettings), std::end(kMachineSettings));
+  append_all(all, model::kSheetSettings);
+  return by_name(all);
 }
 
 RECORD_OF(ErrorSummary, "rms and maximum")
