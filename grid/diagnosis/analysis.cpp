@@ -69,14 +69,14 @@ DiagnosisFailure unreachable(const ObservationSet& session,
                       place.mark.x_mm, place.mark.y_mm, failure.sentence())};
 }
 
-DiagnosisFailure impossible(const ObservationSet& session, const model::MachineProblem& problem) {
+DiagnosisFailure impossible(const ObservationSet& session, std::string_view why) {
   const std::string_view units = session.units_word();
   return {
       DiagnosisFailure::Reason::contradictory_settings,
-      fmt::format("no machine near the one in your file fits these {}: calibrating leads to {} "
-                  "= {}. Check the feed, the attachment and the motors' positions, and that "
+      fmt::format("no machine near the one in your file fits these {}: calibrating leads to "
+                  "none ({}). Check the feed, the attachment and the motors' positions, and that "
                   "the {} are those of this machine",
-                  units, problem.parameter, problem.value, units == "points" ? "lengths" : units)};
+                  units, why, units == "points" ? "lengths" : units)};
 }
 
 /// The largest of the settings' changes at the tool; a turn of the sheet counts at its edge.

@@ -37,7 +37,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   // The settings that go with the applied causes only.
   const Estimate fitted = taken.empty() ? estimate_of(a, {}) : estimate_with(a, taken);
   const VectorXd values = a.system.setting + fitted.setting_change;
-  diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
+  diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine();
   append_all(diagnosis.extended_machine.effects, into_machine);
 }
 

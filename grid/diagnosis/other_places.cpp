@@ -141,7 +141,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   if (!analysis) return failed(analysis);
   const Analysis& a = *analysis;
   // The other sheet was placed separately.
-  State state{a.state.machine, std::vector<SheetPlacement>(second->sheets)};
+  State state{a.state.mechanism, std::vector<SheetPlacement>(second->sheets)};
   if (first->sheets == second->sheets) state.sheets = a.state.sheets;
   const auto system = linearise(*second, state);
   const auto stated = linearise(*second, stated_state(*second));

@@ -34,9 +34,7 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   system.sigma = set.stated_sigma.unaryExpr(
       [](double sigma) { return std::isfinite(sigma) ? sigma : kOpenSigma; });
   // The shares of an effect's sides, places and numbers sum to one.
-  system.prior.shares =
-      static_cast<double>(state.mechanism ? state.mechanism->effects().size()
-                                          : model::effects::effects_of(state.machine).size());
+  system.prior.shares = as_double(state.mechanism->effects().size());
   system.noise_dof = set.noise_dof;
   system.limits.fewest_groups = set.fewest_units;
   return system;

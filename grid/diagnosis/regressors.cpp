@@ -13,32 +13,6 @@ namespace {
 
 constexpr int kMostLinks = 3;  // larger ones are visible to the eye
 
-std::vector<const Effect*> effects_of(const State& state) {
-  if (!state.mechanism) return model::effects::effects_of(state.machine);
-  const auto own = state.mechanism->effects();
-  return {own.begin(), own.end()};
-}
-
-/// The state with one more effect. \pre problems_with_effect() has none.
-State with_effect(State state, CauseId cause, const std::vector<double>& values) {
-  const AppliedEffect own = applied(*cause.effect, cause.side, values);
-  if (state.mechanism) {
-    state.mechanism = state.mechanism->with_effects({own});
-  } else {
-    state.machine.effects.push_back(own);
-  }
-  return state;
-}
-
-std::vector<model::MachineProblem> problems_with_effect(const State& state, CauseId cause,
-                                                        const std::vector<double>& values) {
-  const AppliedEffect own = applied(*cause.effect, cause.side, values);
-  if (state.mechanism) return state.mechanism->problems_of_effects({own});
-  Machine machine = state.machine;
-  machine.effects.push_back(own);
-  return model::effects::problems_of_effects(machine);
-}
-
 /// The predicted readings of a machine in this state, all rows.
 std::optional<VectorXd> predicted(const ObservationSet& session, const State& state) {
   VectorXd all(session.rows);
@@ -91,10 +65,11 @@ struct Signatures {
   /// As signature().
   std::optional<VectorXd> operator()(const SizedCause& sized) {
     const auto& [cause, values] = sized;
-    if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction)
-      return added(system, state.machine.sprocket, cause, values);
-    if (!problems_with_effect(state, cause, values).empty()) return std::nullopt;
-    const auto with = predicted(session, with_effect(state, cause, values));
+    if (session.is_of_chains() && cause.effect->add != nullptr && !cause.effect->by_direction)
+      return added(system, state.machine().sprocket, cause, values);
+    const AppliedEffect own = applied(*cause.effect, cause.side, values);
+    if (!state.mechanism->problems_of_effects({own}).empty()) return std::nullopt;
+    const auto with = predicted(session, {state.mechanism->with_effects({own}), state.sheets});
     if (with && !without) without = predicted(session, state);
     if (!with || !without) return std::nullopt;
     return whitened(system, *with - *without);
@@ -207,11 +182,11 @@ std::string untestable(const ObservationSet& session, CauseId cause) {
 
 Candidates candidates(const ObservationSet& session) {
   Candidates result;
-  const State stated = stated_state(session);
-  for (const Effect* effect : effects_of(stated)) {
+  for (const Effect* effect : session.mechanism->effects()) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{effect, side};
-      const auto problems = problems_with_effect(stated, cause, nominal_values(*effect));
+      const auto problems = session.mechanism->problems_of_effects(
+          {applied(*effect, side, nominal_values(*effect))});
       const std::string reason = untestable(session, cause);
       if (!reason.empty()) {
         result.not_testable.push_back({cause, reason});

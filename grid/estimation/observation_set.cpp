@@ -122,20 +122,12 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
 }
 
 MachineState stated_state(const ObservationSet& set) {
-  return {set.stated, std::vector<SheetPlacement>(set.sheets),
-          set.is_of_chains() ? nullptr : set.mechanism};
+  return {set.mechanism, std::vector<SheetPlacement>(set.sheets)};
 }
 
 VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
   VectorXd values = VectorXd::Zero(set.stated_value.size());
-  // Sheets are laid under two chains alone (observation_set()).
-  if (state.mechanism) {
-    values.head(set.parameters()) = state.mechanism->values();
-    return values;
-  }
-  for (const Index k : each_below(kMachineSettingCount)) {
-    values(k) = model::stated_value(state.machine, set.settings[as_size(k)]);
-  }
+  values.head(set.parameters()) = state.mechanism->values();
   for (const std::size_t i : each_below(set.sheets)) {
     const SheetPlacement& sheet = state.sheets[i];
     values.segment<3>(ObservationSet::sheet_column(i)) << sheet.x_mm, sheet.y_mm,
@@ -145,14 +137,7 @@ VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
 }
 
 MachineState with_settings(const ObservationSet& set, MachineState state, const VectorXd& values) {
-  if (state.mechanism) {
-    state.mechanism = state.mechanism->with_values(values.head(set.parameters()));
-    return state;
-  }
-  for (const Index k : each_below(kMachineSettingCount)) {
-    state.machine =
-        model::with_setting(std::move(state.machine), set.settings[as_size(k)], values(k));
-  }
+  state.mechanism = state.mechanism->with_values(values.head(set.parameters()));
   for (const std::size_t i : each_below(set.sheets)) {
     const Index at = ObservationSet::sheet_column(i);
     state.sheets[i] = {values(at), values(at + 1), values(at + 2)};
@@ -160,19 +145,13 @@ MachineState with_settings(const ObservationSet& set, MachineState state, const 
   return state;
 }
 
-tl::expected<MachineState, model::MachineProblem> moved_to(const ObservationSet& set,
-                                                           MachineState state,
-                                                           const VectorXd& values) {
-  const std::string kind(set.mechanism->kind());
+tl::expected<MachineState, std::string> moved_to(const ObservationSet& set, MachineState state,
+                                                 const VectorXd& values) {
   try {
-    state = with_settings(set, std::move(state), values);
+    return with_settings(set, std::move(state), values);
   } catch (const std::invalid_argument& failure) {
-    return tl::unexpected(model::MachineProblem{kind, "settings that cannot be", failure.what()});
+    return tl::unexpected(std::string(failure.what()));
   }
-  if (state.mechanism) return state;
-  auto problems = model::problems_of(state.machine);
-  if (!problems.empty()) return tl::unexpected(std::move(problems.front()));
-  return state;
 }
 
 std::string name_of(const ObservationSet& set, std::size_t unit) {

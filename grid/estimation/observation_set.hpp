@@ -190,31 +190,27 @@ std::vector<std::pair<const ObservationPart*, const What*>> parts_of(const Obser
   return result;
 }
 
-/// Values of a machine's settings and of each sheet's placement.
+/// A mechanism with its values, and each sheet's placement.
 struct MachineState {
-  Machine machine;
+  std::shared_ptr<const Mechanism> mechanism;
   std::vector<SheetPlacement> sheets;
-  /// For a mechanism other than two chains; then `machine` is unused.
-  std::shared_ptr<const Mechanism> mechanism = nullptr;
-  SheetPlacement sheet_of(const ObservationPart& part) const {
-    return part.sheet ? sheets.at(*part.sheet) : SheetPlacement{};
-  }
 
+  /// Of two chains. \throws std::logic_error for another mechanism.
+  const Machine& machine() const { return observation::View(mechanism).chains().machine(); }
   observation::View view(const ObservationPart& part) const {
-    if (mechanism) return {mechanism, sheet_of(part)};
-    return {ReadingModel(machine), sheet_of(part)};
+    return {mechanism, part.sheet ? sheets.at(*part.sheet) : SheetPlacement{}};
   }
 };
 MachineState stated_state(const ObservationSet& set);
 /// Zeros of other sessions and nuisances are 0 in every state: their effect is linear.
 VectorXd setting_values(const ObservationSet& set, const MachineState& state);
-/// \throws std::invalid_argument for another mechanism than two chains that cannot have these values.
+/// \throws std::invalid_argument for values that such a mechanism cannot have.
 [[nodiscard]] MachineState with_settings(const ObservationSet& set, MachineState state,
                                          const VectorXd& values);
-/// As above, or the reason why there is no such machine.
-[[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(const ObservationSet& set,
-                                                                         MachineState state,
-                                                                         const VectorXd& values);
+/// As above, or the value that cannot be.
+[[nodiscard]] tl::expected<MachineState, std::string> moved_to(const ObservationSet& set,
+                                                               MachineState state,
+                                                               const VectorXd& values);
 
 /// Words for a unit.
 std::string name_of(const ObservationSet& set, std::size_t unit);
