@@ -51,111 +51,38 @@ std::optional<Vector2d> entry_direction(const DiscrepancyField& field) {
   return Vector2d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
 }
 
-/// T at a place.
-Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place) {
-  return field.entry == FieldEntry::chains ? Matrix2d(Matrix2d::Identity()) : place.state.by_mark;
-}
-
-/// k of each length at two places.
-double between_lengths(const DiscrepancyKernel& kernel, const SystemPlace& a,
-                       const SystemPlace& b) {
-  double sum = 0.0;
-  for (const DiscrepancyField& field : kernel.fields)
-    sum += field_covariance(field, field_argument(field, a, 0), field_argument(field, b, 0));
-  return sum / as_double(kernel.fields.size());
-}
-
-/// The kept rows of a unit by what disturbs them at one place: the two chains, or each length.
-struct RowsAtPlace {
-  Index at = 0;  ///< position of the first
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 4> by;
-};
-
-/// One entry for each place, so that two places are compared once, however many units see them.
-std::vector<std::vector<RowsAtPlace>> rows_by_place(const RegressorSystem& system,
-                                                    const KeptRows& kept,
-                                                    const DiscrepancyKernel& kernel) {
-  std::vector<std::vector<RowsAtPlace>> result(system.places.size());
-  for (const KeptRows::Unit& own : kept.units()) {
-    const SystemUnit& unit = system.units[own.unit];
-    for (const PlaceColumns& place : unit.places) {
-      MatrixXd by = kernel.of_lengths() ? unit.by_reading : MatrixXd(place.by_chain);
-      if (const auto alone = kernel.fields.front().alone) by = MatrixXd(by.col(*alone));
-      result[place.place].push_back({own.at, KeptRows::of_unit(own, by)});
-    }
-  }
-  return result;
+/// How each component of a field's entry enters the rows of a unit at one of its places: the chains,
+/// the tool's coordinates, or the lengths.
+MatrixXd field_entry(const DiscrepancyField& field, const RegressorSystem& system,
+                     const SystemUnit& unit, const PlaceColumns& place) {
+  if (field.entry == FieldEntry::chains) return place.by_chain;
+  if (field.entry == FieldEntry::tool)
+    return place.by_chain * system.places[place.place].state.by_mark;
+  return field.alone ? MatrixXd(unit.by_reading.col(*field.alone)) : unit.by_reading;
 }
 
 /// The largest residual of a field's unit variance that is rounding.
 constexpr double kFieldRounding = 1e-13;
 
-/// For every place, first component first; only for the border the second component has its own arguments.
-std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
-                                        const std::vector<SystemPlace>& places) {
-  std::vector<FieldArgument> result;
-  const Index components = field.of == Coordinate::border ? 2 : 1;
-  for (const Index component : each_below(components)) {
-    for (const SystemPlace& place : places) {
-      result.push_back(field_argument(field, place, component));
-    }
+/// Places and units of two systems as one: the rows of `b` behind those of `a`.
+RegressorSystem joined(const RegressorSystem& a, const RegressorSystem& b) {
+  RegressorSystem both;
+  both.e.resize(a.e.size() + b.e.size());
+  both.places = a.places;
+  append_all(both.places, b.places);
+  both.units = a.units;
+  for (SystemUnit unit : b.units) {
+    unit.first_row += a.e.size();
+    for (PlaceColumns& place : unit.places) place.place += a.places.size();
+    both.units.push_back(std::move(unit));
   }
-  return result;
+  return both;
 }
 
-/// Covariance of the two chains at two places, for s = 1.
-Matrix2d discrepancy_block(const DiscrepancyKernel& kernel, const SystemPlace& a,
-                           const SystemPlace& b) {
-  Matrix2d sum = Matrix2d::Zero();
-  for (const DiscrepancyField& field : kernel.fields) {
-    Matrix2d covariance = Matrix2d::Identity();
-    if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
-    const auto between = [&](Index i, Index j) {
-      return field_covariance(field, field_argument(field, a, i), field_argument(field, b, j));
-    };
-    // Only the distances to the border differ by axis.
-    if (field.of != Coordinate::border) {
-      covariance *= between(0, 0);
-    } else {
-      covariance.array() *= Eigen::Array22d::NullaryExpr(between);
-    }
-    sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
-  }
-  return sum / as_double(kernel.fields.size());
-}
-
-}  // namespace
-
-MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const RegressorSystem& to,
-                                const KeptRows& rows, const RegressorSystem& from,
-                                const KeptRows& columns) {
-  const auto to_places = rows_by_place(to, rows, kernel);
-  const auto from_places = rows_by_place(from, columns, kernel);
-  const bool symmetric = &rows == &columns;
-  MatrixXd c = MatrixXd::Zero(rows.size(), columns.size());
-  for (const auto p : each_index(to_places)) {
-    for (const auto q : each_below(symmetric ? p + 1 : from_places.size())) {
-      if (to_places[p].empty() || from_places[q].empty()) continue;
-      const SystemPlace& here = to.places[p];
-      const SystemPlace& there = from.places[q];
-      const double k = kernel.of_lengths() ? between_lengths(kernel, here, there) : 1.0;
-      const Matrix2d block = kernel.of_lengths() ? Matrix2d(Matrix2d::Identity())
-                                                 : discrepancy_block(kernel, here, there);
-      for (const RowsAtPlace& a : to_places[p]) {
-        decltype(a.by) left = k * a.by;
-        if (!kernel.of_lengths()) left = a.by.lazyProduct(block);
-        for (const RowsAtPlace& b : from_places[q]) {
-          const decltype(a.by) part = left.lazyProduct(b.by.transpose());
-          c.block(a.at, b.at, part.rows(), part.cols()) += part;
-          if (symmetric && p != q)
-            c.block(b.at, a.at, part.cols(), part.rows()) += part.transpose();
-        }
-      }
-    }
-  }
-  return c;
-}
-
+/// F with F F' ~= a covariance of n, n x r, what is left of its diagonal below `least`, by a pivoted Cholesky
+/// factorisation (H. Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428,
+/// algorithm 1).
+template <class CovarianceOf>
 MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
   MatrixXd factor(n, std::min<Index>(n, 32));  // with room for more
   Index rank = 0;
@@ -177,6 +104,8 @@ MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
   return factor.leftCols(rank);
 }
 
+}  // namespace
+
 MatrixXd low_rank(const MatrixXd& covariance, double share) {
   const Index n = covariance.rows();
   const double most = n > 0 ? covariance.diagonal().maxCoeff() : 0.0;
@@ -184,57 +113,64 @@ MatrixXd low_rank(const MatrixXd& covariance, double share) {
   return low_rank(n, share * most, [&](Index i, Index j) { return covariance(i, j); });
 }
 
-FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
-                         const DiscrepancyField& field, double least) {
-  const std::vector<FieldArgument> arguments = arguments_of(field, system.places);
+std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
+                                   double least) {
+  std::vector<FieldArgument> arguments;
+  // Only the border's second component has its own arguments.
+  for (const Index component : each_below(field.of == Coordinate::border ? 2 : 1)) {
+    for (const SystemPlace& place : system.places)
+      arguments.push_back(field_argument(field, place, component));
+  }
   const MatrixXd factor = low_rank(std::ssize(arguments), least, [&](Index i, Index j) {
     return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
   });
-  // Where the second component's arguments begin.
   const Index second = factor.rows() - std::ssize(system.places);
-  FieldFactor result{MatrixXd::Zero(kept.size(), factor.cols()),
-                     MatrixXd::Zero(kept.size(), factor.cols())};
-  for (const KeptRows::Unit& own : kept.units()) {
-    const SystemUnit& unit = system.units[own.unit];
+  std::vector<MatrixXd> parts;
+  for (const SystemUnit& unit : system.units) {
     for (const PlaceColumns& place : unit.places) {
-      const MatrixXd entry =
-          KeptRows::of_unit(own, place.by_chain * field_entry(field, system.places[place.place]));
-      const auto at = as_index(place.place);
-      for (const Index k : each_below(entry.rows())) {
-        result.first.row(own.at + k) += entry(k, 0) * factor.row(at);
-        result.second.row(own.at + k) += entry(k, 1) * factor.row(second + at);
+      const MatrixXd entry = field_entry(field, system, unit, place);
+      if (parts.empty())
+        parts.assign(as_size(entry.cols()), MatrixXd::Zero(system.e.size(), factor.cols()));
+      for (const Index c : each_below(entry.cols())) {
+        parts[as_size(c)].middleRows(unit.first_row, unit.rows) +=
+            entry.col(c) * factor.row((c > 0 ? second : 0) + as_index(place.place));
       }
     }
   }
-  return result;
+  return parts;
 }
 
-std::vector<Vector2d> entries_of(const DiscrepancyField& field) {
+std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components) {
   if (const auto direction = entry_direction(field)) return {*direction};
-  return {Vector2d::UnitX(), Vector2d::UnitY()};
+  const auto count = as_index(components);
+  return mapped(each_below(count),
+                [&](Index c) { return VectorXd(VectorXd::Unit(count, c)); });
 }
 
-MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
-                            const DiscrepancyKernel& kernel) {
-  if (kernel.of_lengths()) {
-    return low_rank(discrepancy_covariance(kernel, system, kept, system, kept), kFieldRounding);
-  }
-  std::vector<MatrixXd> parts;
-  Index rank = 0;
+MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel) {
+  MatrixXd all(system.e.size(), 0);
   for (const DiscrepancyField& field : kernel.fields) {
-    const FieldFactor factor = field_factor(system, kept, field, kFieldRounding);
-    for (const Vector2d& entry : entries_of(field)) {
-      parts.push_back(entry.x() * factor.first + entry.y() * factor.second);
-      rank += parts.back().cols();
+    const std::vector<MatrixXd> parts = field_factor(system, field, kFieldRounding);
+    for (const VectorXd& entry : entries_of(field, parts.size())) {
+      const Index rank = all.cols();
+      all.conservativeResize(Eigen::NoChange, rank + parts.front().cols());
+      all.rightCols(all.cols() - rank).setZero();
+      for (const auto c : each_index(parts))
+        all.rightCols(all.cols() - rank) += entry[as_index(c)] * parts[c];
     }
   }
-  MatrixXd all(kept.size(), rank);
-  Index at = 0;
-  for (const MatrixXd& part : parts) {
-    all.middleCols(at, part.cols()) = part;
-    at += part.cols();
-  }
-  return all / std::sqrt(as_double(kernel.fields.size()));
+  all /= std::sqrt(as_double(kernel.fields.size()));
+  // The lengths' fields are one, and together more than the rows.
+  return kernel.of_lengths() ? low_rank(linear::outer(all), kFieldRounding) : all;
+}
+
+DiscrepancyElsewhere discrepancy_at(const RegressorSystem& there, const Discrepancy& process,
+                                    const RegressorSystem& system, const KeptRows& kept) {
+  const MatrixXd factor =
+      process.sigma_mm * discrepancy_factor(joined(there, system), process.kernel);
+  const MatrixXd own = factor.topRows(there.e.size());
+  const MatrixXd here = kept(MatrixXd(factor.bottomRows(system.e.size())));
+  return {linear::outer(own), linear::product(own, linear::transposed(here))};
 }
 
 namespace {

@@ -20,7 +20,6 @@
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -89,33 +88,26 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-/// Covariance of these whitened rows of `to` with those of `from`, for s = 1; exactly symmetric of rows with themselves.
-/// Rows that see no place stay 0.
-MatrixXd discrepancy_covariance(const DiscrepancyKernel& kernel, const RegressorSystem& to,
-                                const KeptRows& rows, const RegressorSystem& from,
-                                const KeptRows& columns);
+/// F with F F' the covariance of all whitened rows for s = 1, up to rounding: n x r. A smooth field over
+/// a bed has few degrees of freedom. Rows that see no place stay 0.
+MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel);
 
-/// F with F F' = that covariance up to rounding: kept x r. A smooth field over a bed has few degrees of freedom.
-MatrixXd discrepancy_factor(const RegressorSystem& system, const KeptRows& kept,
-                            const DiscrepancyKernel& kernel);
+/// Covariance of a discrepancy in all rows of another system, and with the kept ones of its own.
+struct DiscrepancyElsewhere {
+  MatrixXd own;
+  MatrixXd across;
+};
+DiscrepancyElsewhere discrepancy_at(const RegressorSystem& there, const Discrepancy& process,
+                                    const RegressorSystem& system, const KeptRows& kept);
 
-/// F with F F' ~= a covariance of n, n x r, what is left of its diagonal below `least`, by a pivoted Cholesky
-/// factorisation (H. Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428,
-/// algorithm 1).
-using CovarianceOf = std::function<double(Index, Index)>;
-MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance);
-/// The same for a stored covariance; stops below this share of its largest variance.
+/// F with F F' ~= a covariance, n x r, what is left of its diagonal below this share of the largest.
 MatrixXd low_rank(const MatrixXd& covariance, double share);
 
-/// A field's effect on the kept rows, through either component of its entry, what is left of the field's unit
-/// variance at any place below `least`.
-struct FieldFactor {
-  MatrixXd first, second;  ///< kept x r
-};
-FieldFactor field_factor(const RegressorSystem& system, const KeptRows& kept,
-                         const DiscrepancyField& field, double least);
-
-/// The mixes of the two components that a field enters by: its direction, or each of them alone.
-std::vector<Vector2d> entries_of(const DiscrepancyField& field);
+/// A field's effect on all rows through each component of its entry, n x r each, what is left of the
+/// field's unit variance at any place below `least`.
+std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
+                                   double least);
+/// The mixes of so many components that a field enters by: its direction, or each of them alone.
+std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components);
 
 }  // namespace chaintrue::grid::diagnosis

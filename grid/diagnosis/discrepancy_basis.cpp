@@ -15,19 +15,10 @@ namespace {
 /// is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// B of a kernel of lengths.
-MatrixXd low_rank_lengths(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                          const DiscrepancyKernel& kernel) {
-  const KeptRows& kept = marginalised.kept;
-  const MatrixXd half =
-      marginalised.root.solve(discrepancy_covariance(kernel, system, kept, system, kept));
-  return low_rank(marginalised.root.solve(MatrixXd(half.transpose())), kLeftOfField);
-}
-
 /// One field's inner products, by component.
 struct Products {
   DiscrepancyField field;           ///< without its direction
-  FieldFactor parts;                ///< R^-1 times its effect on the kept rows
+  MatrixXd first, second;           ///< R^-1 times its effect on the kept rows
   MatrixXd gram11, gram12, gram22;  ///< r x r
   /// With the residual and the columns of some normal equations, r x (1 + columns) each.
   std::map<const NormalEquations*, std::pair<MatrixXd, MatrixXd>> with;
@@ -47,8 +38,8 @@ MatrixXd gram(const Block& a, const Block& b) {
            a.s * b.s * p.gram22;
   }
   const Products& q = *b.products;
-  return linear::inner(MatrixXd(a.c * p.parts.first + a.s * p.parts.second),
-                       MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
+  return linear::inner(MatrixXd(a.c * p.first + a.s * p.second),
+                       MatrixXd(b.c * q.first + b.s * q.second));
 }
 
 }  // namespace
@@ -60,20 +51,18 @@ class DiscrepancyBasis::Fields {
       : system_(system), marginalised_(marginalised) {}
 
   Products& of(const DiscrepancyKernel& kernel) {
-    FieldFactor parts{low_rank_lengths(system_, marginalised_, kernel), {}};
-    parts.second.setZero(parts.first.rows(), parts.first.cols());
-    return add(kernel.fields.front(), std::move(parts));
+    const MatrixXd factor = reduced(marginalised_, discrepancy_factor(system_, kernel));
+    MatrixXd first = low_rank(linear::outer(factor), kLeftOfField);
+    MatrixXd second = MatrixXd::Zero(first.rows(), first.cols());
+    return add(kernel.fields.front(), std::move(first), std::move(second));
   }
-
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
     auto* known = find_where(all_, having(&Products::field, field));
     if (known != nullptr) return *known;
-    const FieldFactor parts = field_factor(system_, marginalised_.kept, field, kLeftOfField);
-    return add(field,
-               {marginalised_.root.solve(parts.first), marginalised_.root.solve(parts.second)});
+    const std::vector<MatrixXd> parts = field_factor(system_, field, kLeftOfField);
+    return add(field, reduced(marginalised_, parts[0]), reduced(marginalised_, parts[1]));
   }
-
   /// Inner products of a block with the residual and these columns.
   MatrixXd with(const Block& block, const NormalEquations& plain) {
     auto known = block.products->with.find(&plain);
@@ -97,18 +86,19 @@ class DiscrepancyBasis::Fields {
   }
 
  private:
-  Products& add(const DiscrepancyField& field, FieldFactor parts) {
+  Products& add(const DiscrepancyField& field, MatrixXd first, MatrixXd second) {
     Products& p = all_.emplace_back();
     p.field = field;
-    p.parts = std::move(parts);
-    p.gram11 = linear::gram(p.parts.first);
-    p.gram12 = linear::inner(p.parts.first, p.parts.second);
-    p.gram22 = linear::gram(p.parts.second);
+    p.gram11 = linear::gram(first);
+    p.gram12 = linear::inner(first, second);
+    p.gram22 = linear::gram(second);
+    p.first = std::move(first);
+    p.second = std::move(second);
     return p;
   }
 
   static std::pair<MatrixXd, MatrixXd> products_with(const Products& products, const MatrixXd& e) {
-    return {linear::inner(products.parts.first, e), linear::inner(products.parts.second, e)};
+    return {linear::inner(products.first, e), linear::inner(products.second, e)};
   }
 
   const RegressorSystem& system_;
@@ -158,8 +148,8 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSy
     for (const DiscrepancyField& field : kernel.fields) {
       if (kernel.of_lengths()) break;
       Products* const products = &fields_->of(field);
-      for (const Vector2d& entry : entries_of(field))
-        own.blocks.push_back({products, share * entry.x(), share * entry.y()});
+      for (const VectorXd& entry : entries_of(field, 2))
+        own.blocks.push_back({products, share * entry[0], share * entry[1]});
     }
   }
   for_each_index(kernels.size(), [&](std::size_t k) {
@@ -176,10 +166,10 @@ void DiscrepancyBasis::prepare(std::size_t number) {
   own.turned.resize(own.tridiagonal.diagonal().size(), marginalised_.e.size());
   Index row = 0;
   for (const Block& block : own.blocks) {
-    const FieldFactor& parts = block.products->parts;
-    own.turned.middleRows(row, parts.first.cols()) =
-        (block.c * parts.first + block.s * parts.second).transpose();
-    row += parts.first.cols();
+    const Products& own_parts = *block.products;
+    own.turned.middleRows(row, own_parts.first.cols()) =
+        (block.c * own_parts.first + block.s * own_parts.second).transpose();
+    row += own_parts.first.cols();
   }
   own.tridiagonal.rotate_in_place(own.turned);
 }

@@ -128,7 +128,7 @@ Downdating::Factorisation Downdating::factorisation_of(std::size_t number, int d
   const MatrixXd pattern = discrepancy_columns(system_, marginalised, discrepancy);
   Factorisation factorised{
       number, discrepancy,
-      LeaveOut(marginalised.root, LowRankNoise(marginalised.root.solve(pattern)), e),
+      LeaveOut(marginalised.root, LowRankNoise(reduced(marginalised, pattern)), e),
       std::move(equations), std::move(models)};
   take_inner(factorised.rows.without({}), factorised.equations);
   const NoiseDensity noise(system_.noise_dof, e.rows());

@@ -29,19 +29,6 @@ Solution solve(const Unknowns& unknowns, const VectorXd& settings, VectorXd data
           unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }
 
-/// From the residual rows. For the kept ones (1 + s^2 K)^-1 gives it: left - s^2 K w = w.
-void take_discrepancy_out(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                          Estimate& estimate) {
-  const bool of_lengths = estimate.discrepancy.kernel.of_lengths();
-  const KeptRows& kept = marginalised.kept;
-  Flags others = marginalised.outliers;
-  others.flip();
-  const KeptRows rest = of_lengths ? KeptRows::all(system) : KeptRows(system, others);
-  VectorXd& left = estimate.left_given_discrepancy;
-  if (!of_lengths) left(kept.rows()) = estimate.discrepancy_weights;
-  left(rest.rows()) -= discrepancy_in(system, rest, system, marginalised, estimate);
-}
-
 }  // namespace
 
 RegressorSet Estimate::free_regressors() const {
@@ -75,8 +62,11 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
 
 DiscrepancyNoise discrepancy_noise(const RegressorSystem& system,
                                    const MarginalisedSystem& marginalised, int discrepancy) {
-  return {discrepancy < 0 ? Discrepancy{} : discrepancy_of(system, marginalised, discrepancy),
-          LowRankNoise(discrepancy_columns(system, marginalised, discrepancy))};
+  DiscrepancyNoise noise;
+  if (discrepancy >= 0) noise.process = discrepancy_of(system, marginalised, discrepancy);
+  noise.factor = discrepancy_columns(system, marginalised, discrepancy);
+  noise.covariance = LowRankNoise(marginalised.kept(noise.factor));
+  return noise;
 }
 
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
@@ -130,7 +120,9 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     result.discrepancy = noise.process;
     result.discrepancy_weights = noise.covariance.solve(kept);
     quadratic = kept.dot(result.discrepancy_weights);
-    take_discrepancy_out(system, marginalised, result);
+    const VectorXd amplitudes =
+        linear::inner(marginalised.kept(noise.factor), result.discrepancy_weights);
+    linear::add_product(result.left_given_discrepancy, -1.0, noise.factor, amplitudes);
   }
   const VectorXd off = (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
   const NoiseDensity density(system.noise_dof, marginalised.kept.size());
@@ -149,16 +141,6 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
     result.coefficient_sigma(at) = std::sqrt(result.noise_square) / std::max(length, 1e-12);
   }
   return result;
-}
-
-VectorXd discrepancy_in(const RegressorSystem& there, const KeptRows& rows,
-                        const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                        const Estimate& estimate) {
-  if (estimate.discrepancy_weights.size() == 0) return VectorXd::Zero(rows.size());
-  const MatrixXd k =
-      discrepancy_covariance(estimate.discrepancy.kernel, there, rows, system, marginalised.kept);
-  return std::pow(estimate.discrepancy.sigma_mm, 2) *
-         linear::product(k, estimate.discrepancy_weights);
 }
 
 VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,

@@ -48,6 +48,7 @@ Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& margi
 /// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
 struct DiscrepancyNoise {
   Discrepancy process;
+  MatrixXd factor;          ///< s F, all rows
   LowRankNoise covariance;  ///< 1 + s^2 K
   bool is_of_process() const { return process.sigma_mm > 0.0; }
 };
@@ -56,11 +57,6 @@ DiscrepancyNoise discrepancy_noise(const RegressorSystem& system,
                                    const MarginalisedSystem& marginalised, int discrepancy);
 Estimate estimate(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                   const RegressorSet& regressors, const DiscrepancyNoise& noise);
-
-/// The estimate's discrepancy in these whitened rows, of its own system or of another; zero without one.
-VectorXd discrepancy_in(const RegressorSystem& there, const KeptRows& rows,
-                        const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                        const Estimate& estimate);
 
 /// `left` with the nuisances' share added back: the machine's residual. For points `left` itself.
 VectorXd left_of_machine(const RegressorSystem& system, const Estimate& estimate,

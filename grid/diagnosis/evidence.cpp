@@ -167,17 +167,16 @@ Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSyst
       number < marginalised.discrepancy_trace.size() ? marginalised.discrepancy_trace[number] : 0.0;
   if (!(trace > 0.0)) {
     // A kernel that was tried with other readings rejected.
-    trace = marginalised.root.solve(discrepancy_factor(system, marginalised.kept, kernel))
-                .squaredNorm();
+    trace = reduced(marginalised, discrepancy_factor(system, kernel)).squaredNorm();
   }
   return {kernel, family.strength_of(discrepancy) / std::sqrt(std::max(trace, 1e-300))};
 }
 
 MatrixXd discrepancy_columns(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                              int discrepancy) {
-  if (discrepancy < 0) return MatrixXd(marginalised.kept.size(), 0);
+  if (discrepancy < 0) return MatrixXd(system.e.size(), 0);
   const Discrepancy process = discrepancy_of(system, marginalised, discrepancy);
-  return process.sigma_mm * discrepancy_factor(system, marginalised.kept, process.kernel);
+  return process.sigma_mm * discrepancy_factor(system, process.kernel);
 }
 
 namespace {

@@ -145,7 +145,7 @@ NormalEquations normal_equations(const std::vector<Regressor>& regressors,
 Discrepancy discrepancy_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                            int discrepancy);
 
-/// s F of a discrepancy (discrepancy_factor) in the kept rows; no columns for none.
+/// s F of a discrepancy (discrepancy_factor) in all rows; no columns for none.
 MatrixXd discrepancy_columns(const RegressorSystem& system, const MarginalisedSystem& marginalised,
                              int discrepancy);
 

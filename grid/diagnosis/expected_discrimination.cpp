@@ -62,15 +62,10 @@ std::map<std::pair<bool, Indices>, Group> groups_of(const Analysis& a) {
 MatrixXd add_discrepancy(const Analysis& a, const RegressorSystem& system, const Estimate& fitted,
                          const LowRankNoise& covariance, ExpectedRows& expected) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
-  const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
-  const KeptRows all = KeptRows::all(system);
-  const MatrixXd k =
-      square * discrepancy_covariance(kernel, system, all, a.system, marginalised.kept);
+  auto [own, k] = discrepancy_at(system, fitted.discrepancy, a.system, marginalised.kept);
   const MatrixXd x = unknowns_of(a.system, marginalised, fitted.free_regressors()).design;
   linear::add_product(expected.mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(expected.by_unknown, -1.0, k, covariance.solve(x));
-  MatrixXd own = square * discrepancy_covariance(kernel, system, all, system, all);
   linear::add_gram(own, -1.0, covariance.half_solve(MatrixXd(k.transpose())));
   return without_negligible(own);
 }

@@ -60,8 +60,6 @@ KeptRows::KeptRows(const RegressorSystem& system, const Flags& rejected) : all_(
   }
 }
 
-KeptRows KeptRows::all(const RegressorSystem& system) { return {system, nothing_rejected(system)}; }
-
 Rows KeptRows::positions(const Indices& units) const {
   Rows result;
   for (const Unit& unit : units_) {

@@ -37,7 +37,6 @@ class KeptRows {
   KeptRows() = default;
   /// `rejected`: a flag for each outlier group of the system (regressor_system.hpp).
   KeptRows(const RegressorSystem& system, const Flags& rejected);
-  static KeptRows all(const RegressorSystem& system);
 
   Index size() const { return std::ssize(rows_); }
   /// Numbers in the system, ascending; a row across a direction has the number of its unit's first
@@ -68,10 +67,6 @@ class KeptRows {
             unit.across->transpose() * kept.row(unit.at);
     }
     return all;
-  }
-  /// The kept part of a block of a unit's rows.
-  static MatrixXd of_unit(const Unit& unit, const MatrixXd& block) {
-    return unit.across ? MatrixXd(*unit.across * block) : block;
   }
 
  private:

@@ -30,7 +30,8 @@ class LawModel {
            const std::optional<MatrixXd>& law = {})
       : system_(a.system),
         marginalised_(marginalised),
-        pattern_(discrepancy_columns(a.system, marginalised, besides.discrepancy)),
+        pattern_(marginalised.kept(
+            discrepancy_columns(a.system, marginalised, besides.discrepancy))),
         columns_(a.system.g.dense(besides.causes)) {
     if (besides.discrepancy >= 0)
       process_ = discrepancy_of(a.system, marginalised, besides.discrepancy);
@@ -80,11 +81,10 @@ class LawModel {
         own, 1.0,
         linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
     if (process_) {
-      const double square = process_->sigma_mm * process_->sigma_mm;
-      const KeptRows& kept = marginalised_.kept;
-      const KeptRows all = KeptRows::all(next);
-      across += square * discrepancy_covariance(process_->kernel, system_, kept, next, all);
-      own += square * discrepancy_covariance(process_->kernel, next, all, next, all);
+      const auto [of_next, of_both] =
+          discrepancy_at(next, *process_, system_, marginalised_.kept);
+      across += of_both.transpose();
+      own += of_next;
     }
     const LowRankNoise noise(reduced_);
     const MatrixXd half = noise.half_solve(marginalised_.root.solve(across));

@@ -87,8 +87,8 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const Flags& ag
   MarginalisedSystem own = marginalise(system, left_out);
   own.discrepancy_trace = compared.discrepancy_trace;  // the discrepancy keeps its strength
   const MatrixXd pattern = discrepancy_columns(system, own, model.discrepancy);
-  MatrixXd columns(pattern.rows(), pattern.cols() + std::ssize(model.regressors));
-  columns.leftCols(pattern.cols()) = own.root.solve(pattern);
+  MatrixXd columns(own.kept.size(), pattern.cols() + std::ssize(model.regressors));
+  columns.leftCols(pattern.cols()) = reduced(own, pattern);
   Index free = pattern.cols();
   for (const int k : model.regressors) {
     const VectorXd column = reduced(own, system.g.col(k));

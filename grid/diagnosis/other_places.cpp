@@ -64,7 +64,10 @@ ExpectedRows expected_rows(const Analysis& a, const Estimate& fitted, const Regr
 }
 
 VectorXd pattern_at(const Analysis& a, const Estimate& fitted, const RegressorSystem& there) {
-  return discrepancy_in(there, KeptRows::all(there), a.system, marginalised_system(a), fitted);
+  if (fitted.discrepancy_weights.size() == 0) return VectorXd::Zero(there.e.size());
+  const KeptRows& kept = marginalised_system(a).kept;
+  return linear::product(discrepancy_at(there, fitted.discrepancy, a.system, kept).across,
+                         fitted.discrepancy_weights);
 }
 
 namespace {

@@ -178,7 +178,7 @@ double p_of_structure(const Analysis& a) {
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kLeftOverDraws) = left_of_noise(a, kLeftOverDraws, kStream);
   const MatrixXd factor =
-      discrepancy_factor(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
+      kept(discrepancy_factor(a.system, {{{Coordinate::place, kSmoothMm}}, 1.0}));
   const MatrixXd weighed = nuisance_noise(a.system, kept).solve(e);
   const ArrayXd in_common = linear::inner(factor, weighed).colwise().squaredNorm();
   const ArrayXd all = (e.array() * weighed.array()).colwise().sum();
