@@ -15,13 +15,13 @@ namespace {
 /// is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// One field's inner products, by component.
+/// One field's inner products, those of its first component above those of its second.
 struct Products {
-  DiscrepancyField field;           ///< without its direction
-  MatrixXd first, second;           ///< R^-1 times its effect on the kept rows
-  MatrixXd gram11, gram12, gram22;  ///< r x r
-  /// With the residual and the columns of some normal equations, r x (1 + columns) each.
-  std::map<const NormalEquations*, std::pair<MatrixXd, MatrixXd>> with;
+  DiscrepancyField field;  ///< without its direction
+  MatrixXd rows;           ///< 2 r x N, R^-1 times its effect on the kept rows, transposed
+  MatrixXd gram;           ///< 2 r x 2 r
+  /// With the residual and the columns of some normal equations, 2 r x (1 + columns).
+  std::map<const NormalEquations*, MatrixXd> with;
 };
 
 /// A share of a kernel's basis: c times a field's first component plus s times its second.
@@ -29,18 +29,12 @@ struct Block {
   Products* products = nullptr;
   double c = 0.0;
   double s = 0.0;
-};
 
-MatrixXd gram(const Block& a, const Block& b) {
-  const Products& p = *a.products;
-  if (a.products == b.products) {
-    return a.c * b.c * p.gram11 + a.c * b.s * p.gram12 + a.s * b.c * p.gram12.transpose() +
-           a.s * b.s * p.gram22;
+  Index rank() const { return products->rows.rows() / 2; }
+  MatrixXd mixed(const MatrixXd& by_component) const {
+    return c * by_component.topRows(rank()) + s * by_component.bottomRows(rank());
   }
-  const Products& q = *b.products;
-  return linear::inner(MatrixXd(a.c * p.first + a.s * p.second),
-                       MatrixXd(b.c * q.first + b.s * q.second));
-}
+};
 
 }  // namespace
 
@@ -52,9 +46,8 @@ class DiscrepancyBasis::Fields {
 
   Products& of(const DiscrepancyKernel& kernel) {
     const MatrixXd factor = reduced(marginalised_, discrepancy_factor(system_, kernel));
-    MatrixXd first = low_rank(linear::outer(factor), kLeftOfField);
-    MatrixXd second = MatrixXd::Zero(first.rows(), first.cols());
-    return add(kernel.fields.front(), std::move(first), std::move(second));
+    const MatrixXd first = low_rank(linear::outer(factor), kLeftOfField);
+    return add(kernel.fields.front(), first, MatrixXd::Zero(first.rows(), first.cols()));
   }
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
@@ -65,19 +58,16 @@ class DiscrepancyBasis::Fields {
   }
   /// Inner products of a block with the residual and these columns.
   MatrixXd with(const Block& block, const NormalEquations& plain) {
-    auto known = block.products->with.find(&plain);
-    if (known == block.products->with.end())
-      known =
-          block.products->with.emplace(&plain, products_with(*block.products, plain.rows)).first;
-    const auto& [first, second] = known->second;
-    return block.c * first + block.s * second;
+    const auto [known, is_new] = block.products->with.try_emplace(&plain);
+    if (is_new) known->second = linear::product(block.products->rows, plain.rows);
+    return block.mixed(known->second);
   }
 
   /// Computes the inner products of all fields with these columns, so that `with` changes nothing.
   void relate_all(const NormalEquations& plain) {
     for (Products& own : all_) own.with.try_emplace(&plain);
     for_each_index(all_.size(), [&](std::size_t k) {
-      all_[k].with.at(&plain) = products_with(all_[k], plain.rows);
+      all_[k].with.at(&plain) = linear::product(all_[k].rows, plain.rows);
     });
   }
 
@@ -86,19 +76,13 @@ class DiscrepancyBasis::Fields {
   }
 
  private:
-  Products& add(const DiscrepancyField& field, MatrixXd first, MatrixXd second) {
+  Products& add(const DiscrepancyField& field, const MatrixXd& first, const MatrixXd& second) {
     Products& p = all_.emplace_back();
     p.field = field;
-    p.gram11 = linear::gram(first);
-    p.gram12 = linear::inner(first, second);
-    p.gram22 = linear::gram(second);
-    p.first = std::move(first);
-    p.second = std::move(second);
+    p.rows.resize(2 * first.cols(), first.rows());
+    p.rows << first.transpose(), second.transpose();
+    p.gram = linear::outer(p.rows);
     return p;
-  }
-
-  static std::pair<MatrixXd, MatrixXd> products_with(const Products& products, const MatrixXd& e) {
-    return {linear::inner(products.first, e), linear::inner(products.second, e)};
   }
 
   const RegressorSystem& system_;
@@ -111,17 +95,21 @@ namespace {
 /// B'B
 MatrixXd gram_of(const std::vector<Block>& blocks) {
   Index rank = 0;
-  for (const Block& block : blocks) rank += block.products->gram11.cols();
+  for (const Block& block : blocks) rank += block.rank();
   MatrixXd all(rank, rank);
   Index row = 0;
   for (const Block& a : blocks) {
     Index column = 0;
     for (const Block& b : blocks) {
-      const MatrixXd part = gram(a, b);
-      all.block(row, column, part.rows(), part.cols()) = part;
-      column += part.cols();
+      const MatrixXd both = a.products == b.products
+                                ? a.products->gram
+                                : linear::product(a.products->rows,
+                                                  linear::transposed(b.products->rows));
+      const MatrixXd part = b.mixed(a.mixed(both).transpose());
+      all.block(column, row, part.rows(), part.cols()) = part;
+      column += part.rows();
     }
-    row += a.products->gram11.cols();
+    row += a.rank();
   }
   return all;
 }
@@ -166,10 +154,8 @@ void DiscrepancyBasis::prepare(std::size_t number) {
   own.turned.resize(own.tridiagonal.diagonal().size(), marginalised_.e.size());
   Index row = 0;
   for (const Block& block : own.blocks) {
-    const Products& own_parts = *block.products;
-    own.turned.middleRows(row, own_parts.first.cols()) =
-        (block.c * own_parts.first + block.s * own_parts.second).transpose();
-    row += own_parts.first.cols();
+    own.turned.middleRows(row, block.rank()) = block.mixed(block.products->rows);
+    row += block.rank();
   }
   own.tridiagonal.rotate_in_place(own.turned);
 }
