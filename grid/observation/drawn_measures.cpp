@@ -88,15 +88,14 @@ std::string DrawnMeasures::name_of(std::size_t unit) const {
 
 tl::expected<std::vector<DrawnMeasures::Located>, Unreachable> DrawnMeasures::located(
     const View& view, bool with_parameters) const {
-  const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
-                                      : model::Derivatives::by_position;
   std::vector<Located> all;
   for (const auto i : each_index(points_)) {
     const auto tool = view.mechanism->locate_by_first(points_[i].paid_out);
     if (!tool) return tl::unexpected(tool.error().at(i));
     Located own{vector_of(*tool), Matrix2Xd::Zero(2, 0)};
     if (with_parameters) {
-      const auto lengths = view.mechanism->predict(*tool, {}, wanted);
+      const auto lengths =
+          view.mechanism->predict(*tool, {}, model::Derivatives::by_position_and_parameter);
       if (!lengths) return tl::unexpected(lengths.error().at(i));
       const Matrix2d slope = lengths->by_position.topRows<2>();
       own.by_parameter = -slope.inverse() * lengths->by_parameter.topRows<2>();

@@ -28,10 +28,10 @@ constexpr double kMostNoiseFactor = 5.0;
 constexpr double kMostRejectedShare = 0.2;
 
 /// In the order of the drawing's measures.
-VectorXd in_file_order(const observation::DrawnMeasures& readings, const VectorXd& rows) {
-  VectorXd ordered(rows.size());
+MatrixXd in_file_order(const observation::DrawnMeasures& readings, const MatrixXd& rows) {
+  MatrixXd ordered(rows.rows(), rows.cols());
   for (const observation::Unit& unit : readings.units())
-    ordered[as_index(unit.index)] = rows[unit.first_row];
+    ordered.row(as_index(unit.index)) = rows.row(unit.first_row);
   return ordered;
 }
 
@@ -143,17 +143,14 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
                   sentence_of(drawing, made.error().place, made.error().sentence()));
   }
   const auto readings = std::make_shared<const observation::DrawnMeasures>(std::move(*made));
-  const auto as_set = readings->predicted(View(make_plotter_mechanism(drawing.machine)));
+  const auto machine = make_plotter_mechanism(drawing.machine);
+  const auto as_set = readings->linearise(View(machine), {.parameters = true});
   if (!as_set) {
     return failed(DrawingReason::cross_out_of_reach,
                   sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
   }
-  const DrawnValues drawn = [&](const Mechanism& machine) -> std::optional<VectorXd> {
-    const auto values = readings->predicted(View(machine.with_values(machine.values())));
-    if (!values) return std::nullopt;
-    return in_file_order(*readings, *values);
-  };
-  if (auto slip = slip_of_drawing(drawing, drawn, *make_plotter_mechanism(drawing.machine)))
+  if (auto slip = slip_of_drawing(drawing, in_file_order(*readings, as_set->predicted),
+                                  in_file_order(*readings, as_set->by_setting), *machine))
     return tl::unexpected(std::move(*slip));
   auto estimate = estimated(drawing.machine, readings);
   if (!estimate) return failed(estimate);

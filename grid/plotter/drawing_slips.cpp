@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "grid/input_checks/transformation_search.hpp"
@@ -88,21 +89,6 @@ DrawingReason reason_of(ProblemKind kind) {
   return DrawingReason::scaled_when_printed;
 }
 
-/// The effect of one unit of each parameter.
-MatrixXd derivatives(const DrawnValues& drawn, const Mechanism& machine) {
-  constexpr double kStep = 0.1;
-  const VectorXd& values = machine.values();
-  const auto at_stated = drawn(*machine.with_values(values));
-  MatrixXd by_parameter = MatrixXd::Zero(at_stated->size(), values.size());
-  for (const Index k : each_below(values.size())) {
-    VectorXd other = values;
-    other[k] += kStep;
-    if (const auto then = drawn(*machine.with_values(other)))
-      by_parameter.col(k) = (*then - *at_stated) / kStep;
-  }
-  return by_parameter;
-}
-
 std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
   for (const auto i : each_index(drawing.measures)) {
     const DrawnMeasure& own = drawing.measures[i];
@@ -123,27 +109,25 @@ std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
 
 }  // namespace
 
-std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const DrawnValues& drawn,
+std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing, const VectorXd& as_set,
+                                              const MatrixXd& by_parameter,
                                               const Mechanism& machine) {
   if (auto slip = bow_along_its_line(drawing)) return slip;
-  const auto as_set = drawn(machine);
-  if (!as_set) return std::nullopt;
-  const MatrixXd basis = derivatives(drawn, machine);
-  VectorXd sigma(basis.cols());
+  VectorXd sigma(by_parameter.cols());
   for (const Index k : each_below(sigma.size()))
     sigma[k] = std::max(1e-3, machine.parameters()[as_size(k)].prior_sigma.value_or(1e3));
   const std::function<TrendRows(const TestDrawing&)> rows = [&](const TestDrawing& meant) {
-    TrendRows own{basis, MatrixXd(basis.rows(), 1)};
+    TrendRows own{by_parameter, MatrixXd(as_set.size(), 1)};
     for (const auto i : each_index(meant.measures)) {
       const auto row = as_index(i);
-      own.off_mm(row, 0) = meant.measures[i].value_mm - (*as_set)[row];
+      own.off_mm(row, 0) = meant.measures[i].value_mm - as_set[row];
     }
     return own;
   };
   const TrendRows written = rows(drawing);
   const auto plain = input_checks::account_of(input_checks::robust_trend(written, sigma));
   std::vector<input_checks::Candidate> candidates =
-      input_checks::searched(sigma, written, drawing_transformations(drawing, *as_set, rows),
+      input_checks::searched(sigma, written, drawing_transformations(drawing, as_set, rows),
                              [&](std::size_t row) { return words_of(drawing, row); });
   const std::size_t tried = candidates.size();
   const auto found = input_checks::whole_finding(

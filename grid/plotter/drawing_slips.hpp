@@ -4,7 +4,6 @@
 /// predicted for the machine as set or as found. Private to grid/plotter.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "grid/containers.hpp"
@@ -13,14 +12,12 @@
 
 namespace chaintrue::grid {
 
-/// The measures of a machine's drawing, in the drawing's order; empty if it cannot draw one.
-using DrawnValues = std::function<std::optional<VectorXd>(const Mechanism&)>;
-
-/// Slips of the measures as a whole, compared with what the stated `machine` would have drawn:
-/// another unit, bows of the opposite sign or a scaled page, for all measures or some; and a bow
-/// that was measured along its line.
+/// Slips of the measures as a whole, compared with what the stated `machine` would have drawn, with
+/// its derivatives: another unit, bows of the opposite sign or a scaled page, for all measures or
+/// some; and a bow that was measured along its line.
 [[nodiscard]] std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
-                                                            const DrawnValues& drawn,
+                                                            const VectorXd& as_set,
+                                                            const MatrixXd& by_parameter,
                                                             const Mechanism& machine);
 
 /// Two rejected measures that fit `found` once exchanged.
