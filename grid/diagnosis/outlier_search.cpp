@@ -85,7 +85,7 @@ class MeanShifts {
     quadratic_ = e_.squaredNorm();
   }
 
-  /// Removes one regressor of free size, with the prior precision of its coefficient.
+  /// Removes one regressor of free size, with the prior precision of its coefficient; 0: none.
   void free(const VectorXd& g, double prior) {
     VectorXd pg = g;
     linear::add_product(pg, -1.0, taken(), linear::inner(taken(), g));
@@ -93,7 +93,7 @@ class MeanShifts {
     const double ug = u_.dot(g);
     quadratic_ -= ug * ug / denominator;
     u_ -= pg * (ug / denominator);
-    log_det_ += std::log(denominator / prior);
+    log_det_ += std::log(prior > 0.0 ? denominator / prior : denominator);
     take(pg / std::sqrt(denominator));
   }
 
@@ -111,19 +111,14 @@ class MeanShifts {
     return u.dot(block.inverse() * u);
   }
 
-  void reject(const FreeGroup& group, double drop) {
-    const MatrixXd d = group.basis();
-    const MatrixXd own = taken().middleRows(group.at, group.rows);
-    MatrixXd columns = MatrixXd::Zero(u_.size(), d.cols());  // P D
-    columns.middleRows(group.at, group.rows) = d;
-    linear::add_product(columns, -1.0, taken(), linear::inner(own, d));
-    const linear::Cholesky block(d.transpose() * columns.middleRows(group.at, group.rows));
-    const VectorXd along = d.transpose() * u_.segment(group.at, group.rows);
-    quadratic_ -= drop;
-    linear::add_product(u_, -1.0, columns, block.solve(along));
-    log_det_ += block.log_det();
-    const MatrixXd scaled = block.half_solve(MatrixXd(columns.transpose()));
-    for (const auto& row : scaled.rowwise()) take(row.transpose());
+  /// A shift along each of its directions.
+  void reject(const FreeGroup& group) {
+    const MatrixXd directions = group.basis();
+    for (const auto& direction : directions.colwise()) {
+      VectorXd g = VectorXd::Zero(u_.size());
+      g.segment(group.at, group.rows) = direction;
+      free(g, 0.0);
+    }
   }
 
   double quadratic() const { return std::max(quadratic_, 0.0); }
@@ -192,24 +187,18 @@ std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
   return free;
 }
 
-/// The best group to reject: its reduction of the quadratic form against the cost of rejecting its
-/// directions.
-struct Worst {
-  std::size_t position = 0;
-  double drop = 0.0;
-};
-
-/// Empty if nothing can be rejected.
-std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
-  std::optional<Worst> worst;
+/// The position of the best group to reject: its reduction of the quadratic form against the cost of
+/// rejecting its directions. Empty if nothing can be rejected.
+std::optional<std::size_t> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
+  std::optional<std::size_t> worst;
   double most = kMinusInfinity;
   for (const auto k : each_index(free)) {
     if (!shifts.is_checked(free[k])) continue;
-    const double drop = shifts.drop_without(free[k]);
-    const double gain = drop + 2.0 * log_price_of_outlier(free[k].directions());
+    const double gain =
+        shifts.drop_without(free[k]) + 2.0 * log_price_of_outlier(free[k].directions());
     if (gain > most) {
       most = gain;
-      worst = Worst{k, drop};
+      worst = k;
     }
   }
   return worst;
@@ -256,8 +245,8 @@ FoundSet search(MeanShifts shifts, const RegressorSystem& system,
        ++step) {
     const auto worst = worst_of(shifts, free);
     if (!worst) break;
-    const FreeGroup group = free[worst->position];
-    shifts.reject(group, worst->drop);
+    const FreeGroup group = free[*worst];
+    shifts.reject(group);
     take_out(group, free, outliers);
     price += log_price_of_outlier(group.directions());
     n -= group.directions();
