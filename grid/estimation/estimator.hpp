@@ -290,8 +290,7 @@ class Estimator {
 
   bool update_weights(int pass) {
     if (input_.fixed_weights) return false;
-    LeftOut left_out(*problem_, fit_, weights_);
-    left_out.prepare_units();
+    const LeftOut left_out(*problem_, fit_, weights_);
     for (const Index u : each_below(distances_.size()))
       distances_[u] = left_out.distance(as_size(u));
     double change = 0.0;

@@ -87,17 +87,14 @@ struct FinishedFit {
 
   void fill_units(Estimate& estimate) const {
     const EstimationInput& input = problem.input();
-    LeftOut left_out(problem, fit, weights);
-    left_out.prepare_units();
-    if (!input.held_out_together.empty()) left_out.prepare_all();
+    const LeftOut left_out(problem, fit, weights, !input.held_out_together.empty());
     for (const auto u : each_index(problem.units())) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
       const MatrixXd back = unit.whitening.inverse();
-      const MatrixXd rows = problem.design().middleRows(unit.first_row, unit.rows);
       const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
       UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};
-      own.residual = back * (unit.segment(problem.response()) - rows * fit.coefficients);
+      own.residual = back * left_out.residual_of(u);
       const LeftOut::Conditioned conditioned = left_out.conditioned(u);
       own.left_out = back * conditioned.residual;
       own.left_out_covariance = linear::carried(back, conditioned.covariance);

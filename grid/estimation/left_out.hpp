@@ -26,26 +26,20 @@ namespace chaintrue::grid::estimation {
 /// A fit of a problem with these weights. All must outlive this.
 class LeftOut {
  public:
-  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights)
-      : problem_(problem), fit_(fit), weights_(weights) {}
-  /// Call first if all units are needed: X C X' of all takes a fraction of the time.
-  void prepare_units() {
-    if (problem_.local() == nullptr) {
-      prepare_all();
-      return;
-    }
-    spreads_ = problem_.local()->spreads(fit_.covariance);
-    residuals_ = problem_.response() - problem_.design() * fit_.coefficients;
-  }
-
-  /// Likewise for groups.
-  void prepare_all() {
-    if (by_root_.size() > 0) return;
-    const linear::Cholesky factor(fit_.covariance);
+  /// `groups`: those of residuals() are left out too.
+  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights,
+          bool groups = false)
+      : problem_(problem),
+        fit_(fit),
+        weights_(weights),
+        residuals_(problem.response() - problem.design() * fit.coefficients) {
+    if (problem.local() != nullptr) spreads_ = problem.local()->spreads(fit.covariance);
+    if (problem.local() != nullptr && !groups) return;
+    const linear::Cholesky factor(fit.covariance);
     // Positive up to rounding.
-    by_root_ = linear::product(problem_.design(), factor.is_positive_definite()
-                                                      ? factor.lower()
-                                                      : linear::covariance_root(fit_.covariance));
+    by_root_ = linear::product(problem.design(), factor.is_positive_definite()
+                                                     ? factor.lower()
+                                                     : linear::covariance_root(fit.covariance));
   }
 
   struct Conditioned {
@@ -80,10 +74,8 @@ class LeftOut {
     return held ? *held : residual;
   }
 
-  /// Those of a group of units with all of them left out. \throws std::logic_error before
-  /// prepare_all().
+  /// Those of a group of units with all of them left out.
   std::vector<VectorXd> residuals(const UnitGroup& group) const {
-    if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
     Rows rows;
     std::vector<double> roots;
     for (const std::size_t unit : group) {
@@ -100,16 +92,10 @@ class LeftOut {
       for (const std::size_t unit : group) residuals.push_back(residual_of(unit));
       return residuals;
     }
-    const auto count = std::ssize(rows);
-    const Eigen::Map<const VectorXd> root(roots.data(), count);
-    VectorXd residual(count);
-    for (const Index i : each_below(count)) {
-      const Index row = rows[as_size(i)];
-      residual[i] =
-          root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
-    }
+    const Eigen::Map<const VectorXd> root(roots.data(), std::ssize(roots));
     const auto held = interp::held_out_residual(
-        residual, linear::outer(root.asDiagonal() * by_root_(rows, Eigen::all)), fit_.sigma2);
+        root.cwiseProduct(residuals_(rows)),
+        linear::outer(root.asDiagonal() * by_root_(rows, Eigen::all)), fit_.sigma2);
     if (!held) {
       if (const auto rest = fit_without(group)) {
         for (const std::size_t unit : group)
@@ -143,6 +129,10 @@ class LeftOut {
     return noise + spread;
   }
 
+  /// Of the fit itself.
+  VectorXd residual_of(std::size_t unit) const {
+    return problem_.units()[unit].segment(residuals_);
+  }
   double distance(std::size_t unit) const {
     const VectorXd residual = this->residual(unit);
     return std::sqrt(residual.dot(linear::PivotedCholesky(covariance(unit)).solve(residual)));
@@ -165,18 +155,9 @@ class LeftOut {
   /// X C X'.
   MatrixXd spread_of(std::size_t unit) const {
     if (!spreads_.empty()) return spreads_[unit];
-    if (by_root_.size() == 0) {
-      const MatrixXd design = rows_of(unit);
-      return linear::carried(design, fit_.covariance);
-    }
     const SystemUnit& own = problem_.units()[unit];
     const auto root = by_root_.middleRows(own.first_row, own.rows);
     return root.lazyProduct(root.transpose());
-  }
-
-  VectorXd residual_of(std::size_t unit) const {
-    if (residuals_.size() > 0) return problem_.units()[unit].segment(residuals_);
-    return response_of(unit) - rows_of(unit) * fit_.coefficients;
   }
 
   VectorXd response_of(std::size_t unit) const {
@@ -186,9 +167,9 @@ class LeftOut {
   const JointProblem& problem_;
   const interp::PenalisedFit& fit_;
   const VectorXd& weights_;
+  VectorXd residuals_;             ///< of all rows
   std::vector<MatrixXd> spreads_;  ///< X C X' of each unit, where the design is local
-  VectorXd residuals_;             ///< there, of all rows
-  MatrixXd by_root_;               ///< X R of all units, C = R R'; empty before prepare_all()
+  MatrixXd by_root_;               ///< X R of all units, C = R R'
 };
 
 /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
