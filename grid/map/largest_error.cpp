@@ -22,12 +22,13 @@ namespace {
 constexpr Index kDraws = 400;
 constexpr double kLevel = 0.95;
 
+/// Of z, a row each.
 MatrixXd drawn(Index directions) {
   constexpr std::uint64_t kSeed = 95;
   Random random(kSeed);
   MatrixXd draws(directions, kDraws);
   for (double& z : draws.reshaped()) z = random.normal();
-  return draws;
+  return draws.transpose();
 }
 
 ModelSurface& surface_of(MapContents& contents) {
@@ -75,34 +76,20 @@ MatrixXd on_splines(const interp::BsplineBasis& basis,
 }  // namespace
 
 void LargestError::add(const Vector2d& expected_mm, const Matrix2Xd& spread_mm) {
-  constexpr Index kTogether = 24;
-  if (taken_mm2_.size() == 0) {
+  if (largest_mm2_.size() == 0) {
     draws_ = drawn(spread_mm.cols());
-    taken_mm2_ = RowVectorXd::Zero(kDraws);
-    expected_mm_.resize(2 * kTogether);
-    spread_mm_.resize(2 * kTogether, spread_mm.cols());
+    largest_mm2_ = VectorXd::Zero(kDraws);
   }
-  if (spread_mm.cols() != draws_.rows())
-    throw precondition("a spread of {} columns after one of {}", spread_mm.cols(), draws_.rows());
-  expected_mm_.segment<2>(2 * waiting_) = expected_mm;
-  spread_mm_.middleRows<2>(2 * waiting_) = spread_mm;
-  if (++waiting_ < kTogether) return;
-  taken_mm2_ = largest_mm2();
-  waiting_ = 0;
-}
-
-RowVectorXd LargestError::largest_mm2() const {
-  MatrixXd errors = linear::product(spread_mm_.topRows(2 * waiting_), draws_);
-  errors.colwise() += expected_mm_.head(2 * waiting_);
-  RowVectorXd largest = taken_mm2_;
-  for (const Index k : each_below(waiting_))
-    largest = largest.cwiseMax(errors.middleRows<2>(2 * k).colwise().squaredNorm());
-  return largest;
+  if (spread_mm.cols() != draws_.cols())
+    throw precondition("a spread of {} columns after one of {}", spread_mm.cols(), draws_.cols());
+  MatrixXd errors = linear::product(draws_, linear::transposed(spread_mm));
+  errors.rowwise() += expected_mm.transpose();
+  largest_mm2_ = largest_mm2_.cwiseMax(errors.rowwise().squaredNorm());
 }
 
 double LargestError::bound_mm() const {
-  if (taken_mm2_.size() == 0) return 0.0;
-  RowVectorXd sorted = largest_mm2();
+  if (largest_mm2_.size() == 0) return 0.0;
+  VectorXd sorted = largest_mm2_;
   const auto at = static_cast<Index>(kLevel * as_double(kDraws));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
   return std::sqrt(sorted[at]);

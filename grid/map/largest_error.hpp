@@ -58,13 +58,8 @@ class LargestError {
   double bound_mm() const;
 
  private:
-  /// Of each draw, with the places that wait.
-  RowVectorXd largest_mm2() const;
-  MatrixXd draws_;         ///< of z, a column each
-  RowVectorXd taken_mm2_;  ///< largest of each draw without those
-  VectorXd expected_mm_;   ///< m of places that wait, so that their products are one
-  MatrixXd spread_mm_;     ///< S, the same
-  Index waiting_ = 0;
+  MatrixXd draws_;        ///< of z, a row each
+  VectorXd largest_mm2_;  ///< of each draw
 };
 
 }  // namespace chaintrue::grid

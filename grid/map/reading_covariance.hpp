@@ -118,32 +118,19 @@ class FactoredCovariance {
 
   /// The diagonal blocks of K^-1, by units.
   std::vector<MatrixXd> precision_of_units() const {
-    // Enough rows for a fast solve, few enough for little memory.
-    constexpr std::size_t kUnits = 256;
     std::vector<MatrixXd> result;
-    result.reserve(whitening_.size());
-    Index first_row = 0;
-    for (std::size_t first = 0; first < whitening_.size(); first += kUnits) {
-      const std::size_t end = std::min(first + kUnits, whitening_.size());
-      Index rows = 0;
-      for (std::size_t u = first; u < end; ++u) rows += whitening_[u].rows();
-      MatrixXd by_row(columns(), rows);
-      by_row.topRows(shared_.cols()) = MatrixXd(shared_.middleRows(first_row, rows)).transpose();
-      by_row.bottomRows(of_map_.cols()) = of_map_.middleRows(first_row, rows).transpose();
-      const MatrixXd solved = factor_.half_solve(by_row);
-      Index row = 0;
-      for (std::size_t u = first; u < end; ++u) {
-        const MatrixXd& white = whitening_[u];
-        const auto own = solved.middleCols(row, white.rows());
-        const double prior = by_row.middleCols(row, white.rows()).squaredNorm();
-        // The variance of a unit given all other readings is at most its prior variance.
-        const linear::SymmetricEigen parts(linear::gram(own));
-        const VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
-        const MatrixXd turned = linear::inner(parts.eigenvectors(), white);
-        result.push_back(linear::gram(left.cwiseSqrt().asDiagonal() * turned));
-        row += white.rows();
-      }
-      first_row += rows;
+    Index row = 0;
+    for (const MatrixXd& white : whitening_) {
+      MatrixXd by_row(columns(), white.rows());
+      by_row << MatrixXd(shared_.middleRows(row, white.rows())).transpose(),
+          of_map_.middleRows(row, white.rows()).transpose();
+      // The variance of a unit given all other readings is at most its prior variance.
+      const linear::SymmetricEigen parts(linear::gram(factor_.half_solve(by_row)));
+      const VectorXd left =
+          (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + by_row.squaredNorm()));
+      const MatrixXd turned = linear::inner(parts.eigenvectors(), white);
+      result.push_back(linear::gram(left.cwiseSqrt().asDiagonal() * turned));
+      row += white.rows();
     }
     return result;
   }
