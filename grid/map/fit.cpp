@@ -43,11 +43,6 @@ Lattice lattice_of(const std::vector<LengthPoint>& points) {
   return lattice;
 }
 
-std::vector<double> without(std::vector<double> lines, std::size_t line) {
-  lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(line));
-  return lines;
-}
-
 /// The prediction of each inner line's nodes by a map without that line.
 struct LineErrors {
   std::vector<HeldOutResidual> residuals;
@@ -61,21 +56,14 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
   LineErrors errors;
   double squares = 0.0;
   for (std::size_t line = 1; line + 1 < lines.size(); ++line) {
-    const std::vector<double> x_kept = columns ? without(lines, line) : lattice.x_nodes_mm;
-    const std::vector<double> y_kept = columns ? lattice.y_nodes_mm : without(lines, line);
+    Indices x = numbers_below(lattice.x_nodes_mm.size()),
+            y = numbers_below(lattice.y_nodes_mm.size());
+    std::erase(columns ? x : y, line);
+    const auto x_kept = mapped(x, [&](std::size_t i) { return lattice.x_nodes_mm[i]; });
+    const auto y_kept = mapped(y, [&](std::size_t i) { return lattice.y_nodes_mm[i]; });
     const auto axes = std::make_shared<const interp::TensorAxes>(x_kept, y_kept, ends);
-    const auto at = as_index(line);
-    const auto kept = [&](const MatrixXd& all) {
-      MatrixXd values(std::ssize(axes->x), std::ssize(axes->y));
-      if (columns) {
-        values << all.topRows(at), all.bottomRows(all.rows() - at - 1);
-      } else {
-        values << all.leftCols(at), all.rightCols(all.cols() - at - 1);
-      }
-      return values;
-    };
     const auto spline = [&](const MatrixXd& all) {
-      const MatrixXd values = kept(all);
+      const MatrixXd values = all(x, y);
       return interp::TensorSpline(axes, values, parabola_slopes(x_kept, y_kept, values));
     };
     const interp::TensorSpline left = spline(lattice.lengths_mm.left);

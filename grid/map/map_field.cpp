@@ -6,7 +6,6 @@
 #include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/raster.hpp"
-#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -30,8 +29,7 @@ class SplineSurface final : public interp::Surface {
 class DesignSpread {
  public:
   explicit DesignSpread(const ModelSurface& surface)
-      : sheet_(surface.sheet),
-        model_(surface.machine),
+      : view_(ReadingModel(surface.machine), surface.sheet),
         settings_(surface.settings),
         columns_(surface.columns),
         basis_(surface.residual.basis),
@@ -39,20 +37,12 @@ class DesignSpread {
 
   Matrix2Xd operator()(MarkPoint mark, const MapLengths& /*here*/,
                        const model::PointReading* reading) const {
-    const Eigen::Matrix<double, 2, 3> by_sheet =
-        reading->position_jacobian * sheet_.sensitivity(mark);
+    const Matrix2Xd by_setting = observation::lengths_by_setting(view_, *reading, mark, settings_);
     Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
-    for (const auto i : each_index(settings_)) {
-      const Setting setting = settings_[i];
-      const Vector2d slope = model::is_of_sheet(setting)
-                                 ? Vector2d(by_sheet.col(model::sheet_column(setting)))
-                                 : model_.sensitivity(*reading, setting);
-      add(as_index(i), slope[0], spread.col(0));
-      add(as_index(i), slope[1], spread.col(1));
-    }
     const interp::BasisSupport support = basis_.at(mark.x_mm, mark.y_mm);
     for (const Side side : kSides) {
       auto own = spread.col(row_of(side));
+      for (const Index i : each_below(by_setting.cols())) add(i, by_setting(row_of(side), i), own);
       add(columns_.scale(side), reading->lengths[side], own);
       for (const auto k : each_index(support.index))
         add(columns_.spline(side) + support.index[k], support.value[k], own);
@@ -66,8 +56,7 @@ class DesignSpread {
     sum.head(column + 1) += slope * factor_.col(column).head(column + 1);
   }
 
-  SheetPlacement sheet_;
-  ReadingModel model_;
+  observation::View view_;
   std::vector<Setting> settings_;
   FitColumns columns_;
   interp::BsplineBasis basis_;
@@ -98,12 +87,9 @@ struct NodeSpread {
     for (const Index i : each_below(weights.size())) {
       const double own_mm2 = std::pow(doubt_mm.reshaped()[i], 2) + between;
       const Matrix2d covariance = node + own_mm2 * Matrix2d::Identity();
-      // The lower root of a 2 x 2 covariance in closed form, which exists for 0 too.
-      const double first = std::sqrt(covariance(0, 0));
-      const double across = first > 0.0 ? covariance(0, 1) / first : 0.0;
-      const double second = std::sqrt(std::max(0.0, covariance(1, 1) - across * across));
-      spread.col(2 * i) = weights.reshaped()[i] * Vector2d(first, across);
-      spread.col(2 * i + 1) = weights.reshaped()[i] * Vector2d(0.0, second);
+      // Zero where the covariance is.
+      spread.middleCols<2>(2 * i) =
+          weights.reshaped()[i] * Matrix2d(Eigen::LLT<Matrix2d>(covariance).matrixL());
     }
     return spread;
   }

@@ -9,6 +9,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/unit_whitening.hpp"
+#include "grid/observation/chain_lengths.hpp"
 #include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 #include "grid/synthetic/design.hpp"
@@ -92,10 +93,9 @@ StrengthTable::StrengthTable(const Machine& stated, std::vector<model::Visit> vi
     const auto reading = model.at(visits_[as_size(i)].position);
     if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
     const Matrix2d& j = reading->position_jacobian;
-    const Matrix2d covariance = j * j.transpose() * (noise.position_mm * noise.position_mm) +
-                                Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
     length_by_xy_.push_back(j);
-    whitening_.emplace_back(estimation::unit_whitening(covariance));
+    whitening_.emplace_back(estimation::unit_whitening(
+        observation::covariance_of({noise.length_mm, noise.position_mm}, j)));
     for (const Index k : each_below(settings)) {
       by_setting.block<2, 1>(2 * i, k) =
           whitening_.back() * model.sensitivity(*reading, kMachineSettings[as_size(k)]);
