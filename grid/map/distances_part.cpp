@@ -5,14 +5,109 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "grid/containers.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/fit_part.hpp"
 #include "grid/map/map_parts.hpp"
+#include "grid/plane_vectors.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
 namespace {
+
+/// Sigmas from which a tape's zero offset is reported: one sound file in 370 exceeds it.
+constexpr double kTapeZeroSigmas = 3.0;
+
+void note_rejected(const MeasuredHoles& set, const FittedDistances& fit,
+                   std::vector<std::string>& notes) {
+  std::map<std::size_t, int> at_hole;
+  for (const auto k : each_index(fit.distances)) {
+    const FittedDistance& distance = fit.distances[k];
+    if (!distance.rejected) continue;
+    const HoleDistance& reading = set.distances[k];
+    notes.push_back(fmt::format(
+        "{} ({:g} mm on the tape) was left out: it is {:.1f} mm {} than the others "
+        "predict, {:.1f} times the usual error of tape and holes. Measure it again.",
+        words_of(set, reading), reading.distance_mm, std::abs(distance.left_out_mm),
+        distance.left_out_mm > 0.0 ? "longer" : "shorter", std::abs(distance.sigmas())));
+    ++at_hole[reading.from];
+    if (!reading.edge) ++at_hole[reading.to];
+  }
+  for (const auto& [hole, count] : at_hole) {
+    if (count < 2) continue;
+    notes.push_back(
+        fmt::format("{} of the distances that were left out end at hole {}: perhaps the hole is "
+                    "misplaced and the tape is right.",
+                    count, set.holes[hole].name));
+  }
+}
+
+std::string tape_zero_sentence(const FoundTapeZero& zero) {
+  return fmt::format(
+      "Every tape distance reads {:.1f} +- {:.1f} mm too {}. This is corrected: {}",
+      std::abs(zero.mm), zero.sigma_mm, zero.mm > 0.0 ? "long" : "short",
+      zero.mm > 0.0
+          ? "does it include the hook or the bit's width? Measure from centre to centre, or enter "
+            "the offset (--hook-offset-mm)."
+          : "was it measured between the near edges of the holes, or is the hook's offset "
+            "too large?");
+}
+
+FittedDistances fitted_distances(const observation::TapeDistances& distances,
+                                 const estimation::Estimate& estimate, std::size_t observation) {
+  const MeasuredHoles& set = distances.set();
+  const estimation::ObservationEstimate& own = estimate.observations[observation];
+  FittedDistances fit;
+  fit.file = observation;
+  for (const estimation::UnitEstimate& unit : estimate.units) {
+    if (unit.observation != observation) continue;
+    const auto at = as_index(unit.unit);
+    fit.distances.push_back({distances.measured()[at], commanded_mm(set, set.distances[unit.unit]),
+                             own.predicted[at], unit.left_out[0],
+                             std::sqrt(unit.left_out_covariance(0, 0)), unit.is_rejected()});
+  }
+  const auto holes = std::ssize(set.holes);
+  const VectorXd shift = own.nuisance.tail(2 * holes);
+  for (Index i = 0; i < holes; ++i) {
+    const estimation::PlaceEstimate& place = own.places[as_size(i)];
+    fit.holes.push_back({distances.places()[as_size(i)].lengths,
+                         place.as_stated,
+                         place.mark,
+                         {place.mark.x_mm + shift[2 * i], place.mark.y_mm + shift[2 * i + 1]}});
+  }
+  // After the sheet's size (tape_distances.hpp).
+  constexpr Index kTapeZero = 2;
+  if (tape_zero_sigma_mm(set.tape) > 0.0)
+    fit.tape_zero = FoundTapeZero{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
+  return fit;
+}
+
+MapPoint map_point(const FittedHole& hole) {
+  MapPoint point;
+  point.mark = hole.place;
+  point.lengths = hole.lengths;
+  const auto shifted = [&hole](MarkPoint from) { return difference(hole.place, from); };
+  point.as_stated_mm = point.sheet_placed_mm = shifted(hole.as_stated);
+  point.mapped_mm = point.left_out_mm = shifted(hole.predicted);
+  return point;
+}
+
+std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit) {
+  std::vector<std::string> notes;
+  note_rejected(set, fit, notes);
+  if (const auto tape_zero = suspected_tape_zero_offset_mm(set)) {
+    notes.push_back(
+        fmt::format("All distances are about {:.1f} mm {} than commanded, whatever their length: "
+                    "was the tape's hook offset left out or subtracted twice?",
+                    std::abs(*tape_zero), *tape_zero > 0.0 ? "longer" : "shorter"));
+  } else if (fit.tape_zero &&
+             std::abs(fit.tape_zero->mm) >= kTapeZeroSigmas * fit.tape_zero->sigma_mm) {
+    notes.push_back(tape_zero_sentence(*fit.tape_zero));
+  }
+  return notes;
+}
 
 class DistancesPart final : public FitPart {
  public:

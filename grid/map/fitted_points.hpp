@@ -82,15 +82,9 @@ struct FittedDistances {
   std::vector<FittedHole> holes;
   std::optional<FoundTapeZero> tape_zero;
 };
-FittedDistances fitted_distances(const observation::TapeDistances& distances,
-                                 const estimation::Estimate& estimate, std::size_t observation);
 
-/// A hole as a point of a map.
-MapPoint map_point(const FittedHole& hole);
 /// The input of a map of holes.
 DistancesUsed distances_used(const std::vector<FittedDistance>& distances, double tape_sigma_mm);
-/// Sentences: which readings were rejected, and errors common to all of them.
-std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit);
 
 /// The surface's intervals: some twenty distances can show only a bend of the whole bed.
 inline constexpr int kHolesIntervalsX = 4;
