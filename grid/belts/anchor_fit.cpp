@@ -2,9 +2,9 @@
 #include "grid/belts/anchor_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "grid/plane_vectors.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -30,11 +30,8 @@ bool are_on_a_line(const std::vector<FramePoint>& places) {
     at.col(as_index(k)) = vector_of(places[k]);
   }
   at.colwise() -= at.rowwise().mean().eval();
-  const Matrix2d square = at * at.transpose();
-  // Eigenvector of the smaller eigenvalue of a symmetric 2 x 2 matrix.
-  const double angle = 0.5 * std::atan2(2.0 * square(0, 1), square(0, 0) - square(1, 1));
-  const RowVector2d across(-std::sin(angle), std::cos(angle));
-  const RowVectorXd widths = across * at;
+  const linear::SymmetricEigen axes(at * at.transpose());
+  const RowVectorXd widths = axes.eigenvectors().col(0).transpose() * at;
   return widths.maxCoeff() - widths.minCoeff() < kLineMm;
 }
 

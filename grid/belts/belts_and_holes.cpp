@@ -106,11 +106,7 @@ struct Chosen {
     best = log_posterior;
     noise = candidate;
   }
-  double mean() const {
-    double sum = 0.0;
-    for (const double one : all) sum += std::exp(one - best);
-    return best + std::log(sum / as_double(all.size()));
-  }
+  double mean() const { return log_sum(all) - std::log(as_double(all.size())); }
 };
 
 TapedNoise likeliest_noise(const KnownFrame& known, TapedState at, double dof) {
@@ -234,11 +230,8 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
     const double alone = known.covariance(row, row);
     for (const Belt belt : kBelts) coordinate.variance_share[belt] *= covariance(row, row) / alone;
   }
-  BeltScale scale;
-  scale.factor = std::exp(state.frame.log_scale);
-  scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
-  if (fit.scale) scale.residuals_mm = fit.scale->residuals_mm;
-  fit.scale = std::move(scale);
+  const double factor = std::exp(state.frame.log_scale);
+  fit.scale = {factor, factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns)), {}};
   if (measured.points.empty()) return;
   frame.state = state.frame;
   place_all(measured, frame);
@@ -252,10 +245,9 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   // The factor found from the uncorrected readings is kept after correcting for causes.
   if (fit.causes.empty())
     fit.rms_mm = rms(std::vector<double>(there.residual_mm.begin(), there.residual_mm.end()));
-  if (!fit.scale || measured.distances.empty()) return;
   for (const auto i : each_index(measured.distances)) {
-    fit.scale->residuals_mm[i] =
-        there.distance_residual[as_index(i)] * measured.distances[i].sigma_mm;
+    fit.scale->residuals_mm.push_back(there.distance_residual[as_index(i)] *
+                                      measured.distances[i].sigma_mm);
   }
 }
 

@@ -209,14 +209,12 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
 void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view, const MatrixXd& covariance,
                 BeltsFit& fit) {
   if (!view.has_scale()) return;
-  BeltScale scale;
-  scale.factor = std::exp(view.frame().state.log_scale);
-  scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
+  const double factor = std::exp(view.frame().state.log_scale);
+  fit.scale = {factor, factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns)), {}};
   for (const auto i : each_index(belts.distances)) {
-    scale.residuals_mm.push_back(view.equations().distance_residual[as_index(i)] *
-                                 belts.distances[i].sigma_mm);
+    fit.scale->residuals_mm.push_back(view.equations().distance_residual[as_index(i)] *
+                                      belts.distances[i].sigma_mm);
   }
-  fit.scale = std::move(scale);
 }
 
 /// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt

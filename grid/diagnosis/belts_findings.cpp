@@ -32,12 +32,11 @@ double shape_error_mm(const BeltMachine& by, const BeltMachine& real,
   }
   if (rows.size() < 2) return 0.0;
   const auto n = std::ssize(rows);
-  MatrixXd design = MatrixXd::Zero(2 * n, 3);
+  MatrixXd design(2 * n, 3);
   VectorXd shift(2 * n);
   for (const Index i : each_below(n)) {
     const Eigen::Vector4d& row = rows[as_size(i)];
-    design.row(2 * i) << 1.0, 0.0, -row[1];
-    design.row(2 * i + 1) << 0.0, 1.0, row[0];
+    design.middleRows<2>(2 * i) = SheetPlacement{}.sensitivity({row[0], row[1]});
     shift.segment<2>(2 * i) = row.tail<2>();
   }
   const VectorXd left = shift - linear::product(design, linear::least_squares(design, shift));
@@ -158,17 +157,13 @@ Unexplained pattern_of_belts(const BeltsAnalysis& a) {
 
 /// Residual chi^2 of a place's other readings at their best position.
 double left_without(const FitDiagnostics& view, std::size_t point, Belt without) {
-  VectorXd residual(3);
-  MatrixXd by_place(3, 2);
-  Index row = 0;
-  for (const Belt belt : kBelts) {
-    if (belt == without) continue;
-    const Index at = belts::row_of(point, belt);
-    residual(row) = view.equations().residual_mm(at) / view.sigma_mm();
-    by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
-  }
-  const VectorXd moved = linear::least_squares(by_place, residual);
-  return (residual - linear::product(by_place, moved)).squaredNorm();
+  const Index first = belts::row_of(point, Belt::tl);
+  const VectorXd residual = view.equations().residual_mm.segment<4>(first);
+  MatrixXd free(4, 3);  // the place, and the reading that does not count
+  free << view.equations().by_place.middleRows<4>(first),
+      Vector4d::Unit(as_index(as_size(without)));
+  const VectorXd left = residual - linear::product(free, linear::least_squares(free, residual));
+  return left.squaredNorm() / std::pow(view.sigma_mm(), 2);
 }
 
 /// The belt that may be wrong instead: on the line between two anchors only the other two belts
