@@ -63,8 +63,7 @@ class SingleScore {
       const double ee = e.col(draw).squaredNorm();
       for (const Index k : each_below(g.cols())) {
         const double own = g.factor(k) * c(g.index(k), draw);
-        if (most(k, square_(k), own, ee, n) > result(draw))
-          result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));
+        result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n, result(draw)));
       }
     }
     return result;
@@ -75,25 +74,19 @@ class SingleScore {
   /// Prior of a strength.
   static double precision() { return 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise); }
 
-  /// For a regressor with this square and inner product with the residual, in this many rows.
-  double score(Index k, double square, double c, double ee, double n) const {
+  /// For a regressor with this square and inner product with the residual, in this many rows; none
+  /// if it is less than `least`.
+  double score(Index k, double square, double c, double ee, double n,
+               double least = kNoScore) const {
     const auto at = as_size(k);
     if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
-    return constant_(k) - 0.5 * (n + dof_) * std::log1p(-share_taken(at, square, c, ee));
-  }
-
-  /// A bound of it without a logarithm.
-  double most(Index k, double square, double c, double ee, double n) const {
-    // -log(1 - x) <= x / (1 - x); the last digits of either side do not matter to a score that is far below.
-    constexpr double kRounding = 1e-9;
-    const double taken = share_taken(as_size(k), square, c, ee);
-    return constant_(k) + 0.5 * (n + dof_) * taken / (1.0 - taken) + kRounding;
-  }
-
-  /// The reduction of the residual's square by the regressor's best size, relative to noise.
-  double share_taken(std::size_t at, double square, double c, double ee) const {
+    // The reduction of the residual's square by the regressor's best size.
     const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + precision()));
-    return drop / (dof_ + ee);
+    const double taken = drop / (dof_ + ee);
+    // -log(1 - x) <= x / (1 - x) spares most logarithms.
+    const double power = 0.5 * (n + dof_);
+    if (constant_(k) + power * taken / (1.0 - taken) < least) return kNoScore;
+    return constant_(k) - power * std::log1p(-taken);
   }
 
   const RegressorSystem& system_;

@@ -29,6 +29,9 @@ namespace {
 /// shift can show there.
 constexpr double kNoDirection = 1e-9;
 
+/// Of a group's rows or directions, which are two at most.
+using Few = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 2>;
+
 struct FoundSet {
   Flags outliers;
   double log_weight = 0.0;
@@ -45,38 +48,22 @@ struct FreeGroup {
 
   Index directions() const { return direction ? 1 : rows; }
   /// The directions D, rows x directions.
-  MatrixXd basis() const {
-    return direction ? MatrixXd(*direction) : MatrixXd(MatrixXd::Identity(rows, rows));
-  }
+  Few basis() const { return direction ? Few(*direction) : Few(Few::Identity(rows, rows)); }
 };
 
 /// The data under one hypothesis: precision P of the rows, and P times the residual.
 ///
-/// P is 1 - T T', with columns of T for the settings, for each free regressor and for each shift. Of P
-/// only the units' own blocks are kept, and a group's columns are made when it is rejected: with
+/// P is 1 - T T', with columns of T for the settings, for each free regressor and for each shift: with
 /// hundreds of points nothing of rows x rows is ever made.
 class MeanShifts {
-  auto taken() const { return taken_.leftCols(count_); }
-
  public:
-  /// `groups` are those that may be rejected.
-  MeanShifts(const MarginalisedSystem& marginalised, const std::vector<FreeGroup>& groups)
+  explicit MeanShifts(const MarginalisedSystem& marginalised)
       : root_(&marginalised.root),
         e_(marginalised.e),
         u_(root_->solve(e_)),
         quadratic_(e_.squaredNorm()),
         log_det_(marginalised.log_det),
-        own_(MatrixXd::Zero(2, e_.size())),
-        taken_(root_->explained()),
-        count_(taken_.cols()) {
-    for (const FreeGroup& group : groups) {
-      if (!blocks_.empty() && blocks_.back().first == group.at) continue;
-      const MatrixXd own = taken().middleRows(group.at, group.rows);
-      own_.block(0, group.at, group.rows, group.rows) =
-          MatrixXd::Identity(group.rows, group.rows) - own * own.transpose();
-      blocks_.emplace_back(group.at, group.rows);
-    }
-  }
+        taken_(root_->explained()) {}
 
   /// Removes one regressor of known size. Call before any other.
   void subtract(const VectorXd& reduced_column) {
@@ -88,32 +75,32 @@ class MeanShifts {
   /// Removes one regressor of free size, with the prior precision of its coefficient; 0: none.
   void free(const VectorXd& g, double prior) {
     VectorXd pg = g;
-    linear::add_product(pg, -1.0, taken(), linear::inner(taken(), g));
+    linear::add_product(pg, -1.0, taken_, linear::inner(taken_, g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
     quadratic_ -= ug * ug / denominator;
     u_ -= pg * (ug / denominator);
     log_det_ += std::log(prior > 0.0 ? denominator / prior : denominator);
-    take(pg / std::sqrt(denominator));
+    taken_.conservativeResize(Eigen::NoChange, taken_.cols() + 1);
+    taken_.rightCols<1>() = pg / std::sqrt(denominator);
   }
 
-  /// Whether anything else determines the group's readings.
-  bool is_checked(const FreeGroup& group) const {
-    return !group.direction || precision_along(group) > kNoDirection;
-  }
-
-  /// (1): the drop of the quadratic form without the group.
-  double drop_without(const FreeGroup& group) const {
-    if (group.rows == 1) return u_[group.at] * u_[group.at] / own_(0, group.at);
-    const Vector2d u = u_.segment<2>(group.at);
-    if (group.direction) return std::pow(group.direction->dot(u), 2) / precision_along(group);
-    const Matrix2d block = own_.block<2, 2>(0, group.at);
-    return u.dot(block.inverse() * u);
+  /// (1): the drop of the quadratic form without the group; empty where nothing else determines its
+  /// readings.
+  std::optional<double> drop_without(const FreeGroup& group) const {
+    const Few d = group.basis();
+    const auto own = taken_.middleRows(group.at, group.rows);
+    const Few rows = Few::Identity(group.rows, group.rows) - own.lazyProduct(own.transpose());
+    const Few precision = d.transpose() * rows * d;
+    const Few u = d.transpose() * u_.segment(group.at, group.rows);
+    if (group.directions() == 2) return (u.transpose() * Matrix2d(precision).inverse() * u)(0, 0);
+    if (group.direction && !(precision(0, 0) > kNoDirection)) return std::nullopt;
+    return u(0, 0) * u(0, 0) / precision(0, 0);
   }
 
   /// A shift along each of its directions.
   void reject(const FreeGroup& group) {
-    const MatrixXd directions = group.basis();
+    const Few directions = group.basis();
     for (const auto& direction : directions.colwise()) {
       VectorXd g = VectorXd::Zero(u_.size());
       g.segment(group.at, group.rows) = direction;
@@ -125,32 +112,12 @@ class MeanShifts {
   double log_det() const { return log_det_; }
 
  private:
-  /// D' P D.
-  double precision_along(const FreeGroup& group) const {
-    const Matrix2d block = own_.block<2, 2>(0, group.at);
-    return group.direction->dot(block * *group.direction);
-  }
-
-  void take(const VectorXd& column) {
-    if (count_ == taken_.cols()) {
-      taken_.conservativeResize(u_.size(), std::max<Index>(16, 2 * count_));
-    }
-    taken_.col(count_++) = column;
-    for (const auto& [at, rows] : blocks_) {
-      for (const Index k : each_below(rows))
-        own_.col(at + k).head(rows) -= column[at + k] * column.segment(at, rows);
-    }
-  }
-
   const CovarianceRoot* root_;
   VectorXd e_;
   VectorXd u_;
   double quadratic_;
   double log_det_;
-  MatrixXd own_;  ///< 2 x rows: P's block of each unit, in the columns of its rows
-  std::vector<std::pair<Index, Index>> blocks_;  ///< first row and rows of each
-  MatrixXd taken_;                               ///< T, with room for more
-  Index count_ = 0;
+  MatrixXd taken_;  ///< T
 };
 
 MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
@@ -193,9 +160,9 @@ std::optional<std::size_t> worst_of(const MeanShifts& shifts, const std::vector<
   std::optional<std::size_t> worst;
   double most = kMinusInfinity;
   for (const auto k : each_index(free)) {
-    if (!shifts.is_checked(free[k])) continue;
-    const double gain =
-        shifts.drop_without(free[k]) + 2.0 * log_price_of_outlier(free[k].directions());
+    const auto drop = shifts.drop_without(free[k]);
+    if (!drop) continue;
+    const double gain = *drop + 2.0 * log_price_of_outlier(free[k].directions());
     if (gain > most) {
       most = gain;
       worst = k;
@@ -267,7 +234,7 @@ std::vector<Flags> outlier_sets(const RegressorSystem& system, const Flags& excl
   const std::vector<FreeGroup> free = free_groups(marginalised, system.groups);
   Flags beforehand(system.groups.size(), true);
   for (const FreeGroup& group : free) beforehand[group.group] = false;
-  const MeanShifts nothing(marginalised, free);
+  const MeanShifts nothing(marginalised);
   std::vector<FoundSet> found;
   for (const auto& set : hypotheses) {
     FoundSet one = search(under(nothing, marginalised, system, set), system, marginalised, free,
