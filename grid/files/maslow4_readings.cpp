@@ -10,12 +10,64 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// The reading that this text is; empty for objects of other programs.
-std::optional<ScannedReading> read(std::string text, std::size_t line, std::size_t column,
-                                   bool is_closed, const std::string& file) {
-  std::erase(text, '\n');
-  Problems problems(file);
-  const std::string place = line_and_column(line, column);
+/// A reading has some 60 characters; a terminal breaks it over two lines, seldom three.
+constexpr std::size_t kLongestReading = 200;
+constexpr std::size_t kMostLines = 3;
+
+}  // namespace
+
+void ReadingReader::begin(std::size_t number, std::size_t column) {
+  open_ = true;
+  text_.clear();
+  outside_.clear();
+  line_ = number;
+  column_ = column;
+  lines_ = 1;
+}
+
+ReadingReader::Found ReadingReader::take(std::string_view line, std::size_t number) {
+  Found found;
+  const auto add = [&found](std::optional<ScannedReading> reading) {
+    if (reading) found.readings.push_back(*std::move(reading));
+  };
+  outside_.clear();
+  if (open_) ++lines_;
+  for (const auto at : each_index(line)) {
+    const char c = line[at];
+    if (open_ && (c == '}' || c == '{' || c == ']')) {
+      open_ = false;
+      // A number that another sign ends is whole, though the bracket is lost.
+      add(read(text_));
+      found.list_ends = found.list_ends || c == ']';
+      if (c == '{') begin(number, at + 1);
+    } else if (open_) {
+      text_ += c;
+    } else if (c == '{') {
+      begin(number, at + 1);
+    } else if (c == '}') {
+      line_ = number;
+      column_ = 1;
+      add(read(outside_));
+      outside_.clear();
+    } else if (c == ']') {
+      found.list_ends = true;
+    } else {
+      outside_ += c;
+    }
+  }
+  if (open_ && (text_.size() > kLongestReading || lines_ > kMostLines)) add(give_up());
+  return found;
+}
+
+std::optional<ScannedReading> ReadingReader::give_up() {
+  if (!open_) return std::nullopt;
+  open_ = false;
+  return read(text_, false);
+}
+
+std::optional<ScannedReading> ReadingReader::read(const std::string& text, bool is_closed) const {
+  Problems problems(file_);
+  const std::string place = line_and_column(line_, column_);
   PerBelt<double> lengths_mm;
   PerBelt<bool> known;
   for (std::string_view rest = text; !rest.empty();) {
@@ -32,6 +84,7 @@ std::optional<ScannedReading> read(std::string text, std::size_t line, std::size
     const auto value = checked_number(unquoted(length), place, name(*belt), kLengthMm, problems);
     if (value) lengths_mm[*belt] = *value;
   }
+  // Objects of other programs.
   if (none_of(kBelts, [&](Belt belt) { return known[belt]; })) return std::nullopt;
   const std::string whole = fmt::format("{{{}{}", unquoted(text), is_closed ? "}" : "");
   for (const Belt belt : kBelts) {
@@ -44,36 +97,10 @@ std::optional<ScannedReading> read(std::string text, std::size_t line, std::size
     problems.add(place, whole, ProblemKind::missing,
                  "a complete reading; the log ends in the middle of this one");
   ScannedReading reading;
-  reading.line = line;
+  reading.line = line_;
   reading.problems = problems.list();
   if (!problems.any()) reading.lengths_mm = lengths_mm;
   return reading;
-}
-
-}  // namespace
-
-FoundReadings readings_in(const LogLine& line, const std::string& file) {
-  FoundReadings found;
-  const std::string_view text = line.text;
-  std::size_t sign = npos;  // the last one
-  bool is_open = false;
-  const auto take = [&](std::size_t end, bool is_closed) {
-    auto reading = read(std::string(text.substr(sign + 1, end - sign - 1)),
-                        line.number + count_equal(text.substr(0, sign + 1), '\n'),
-                        is_open ? sign - text.rfind('\n', sign) : 1, is_closed, file);
-    if (reading) found.readings.push_back(*std::move(reading));
-  };
-  for (const auto at : each_index(text)) {
-    const char c = text[at];
-    if (c != '{' && c != '}' && c != ']' && (c != '\n' || is_open)) continue;
-    // A number that another sign ends is whole, though the bracket is lost.
-    if (is_open || c == '}') take(at, true);
-    found.list_ends = found.list_ends || c == ']';
-    is_open = c == '{';
-    sign = at;
-  }
-  if (is_open) take(text.size(), false);
-  return found;
 }
 
 }  // namespace chaintrue::grid::files

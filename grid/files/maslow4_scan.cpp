@@ -29,13 +29,12 @@ bool begins_equally(const std::vector<ScannedReading>& points,
 
 class Scanner {
  public:
-  explicit Scanner(const std::string& file) : file_(file) {}
+  explicit Scanner(const std::string& file) : reader_(file) {}
 
   ScannedLog scan(const std::string& text) {
     for (const LogLine& line : log_lines(text)) {
       line_ = line.number;
-      is_cut_ = is_cut_ || line.is_cut;
-      take_line(line);
+      take_line(line.text);
     }
     return finish();
   }
@@ -59,23 +58,31 @@ class Scanner {
     ended_.reset();
   }
 
-  void take_line(LogLine line) {
-    const std::size_t comment = line.text.find("//");
-    const std::size_t brace = line.text.find_first_of("{}");
-    if (has(line.text, "CLBM:")) {
-      close_list();
-      is_open_list_ = true;
+  void take_line(std::string_view line) {
+    const std::size_t comment = line.find("//");
+    const std::size_t brace = line.find_first_of("{}");
+    const bool is_list = has(line, "CLBM:");
+    if (is_list) open_list();
+    if (reader_.is_open() && !is_list) {
+      if (is_other_output(line)) return take_message(line);
+      return take_braces(line.substr(0, comment), false);
     }
     if (brace == npos || comment < brace) {
-      if (is_heading(line.text)) {
+      if (is_heading(line)) {
         close_list();
-        begin_run(std::string(unquoted(line.text)));
+        begin_run(std::string(unquoted(line)));
       }
-      take_message(line.text);
-      if (!is_open_list_ || is_other_output(line.text)) return;
+      take_message(line);
+      if (is_open_list_ && !is_other_output(line)) take_braces(line.substr(0, comment), false);
+      return;
     }
-    line.text = line.text.substr(0, comment);
-    take_braces(line);
+    take_braces(line.substr(0, comment), is_list);
+  }
+
+  void open_list() {
+    give_up();
+    close_list();
+    is_open_list_ = true;
   }
 
   void close_list() {
@@ -85,12 +92,21 @@ class Scanner {
   }
 
   /// In a list without its heading, several readings are on a line.
-  void take_braces(const LogLine& line) {
-    const bool is_bare_list = !is_open_list_ && count_equal(line.text, '{') > 1;
-    const FoundReadings found = readings_in(line, file_);
-    is_open_list_ = is_open_list_ || is_bare_list;
-    if (!found.readings.empty()) append_all(is_open_list_ ? list_ : run().points, found.readings);
-    if (is_open_list_ && (found.list_ends || is_bare_list)) close_list();
+  void take_braces(std::string_view line, bool is_list) {
+    const bool is_bare_list = !is_list && !is_open_list_ && count_equal(line, '{') > 1;
+    ReadingReader::Found found = reader_.take(line, line_);
+    if (is_bare_list) is_open_list_ = true;
+    is_bare_ = is_bare_list || (is_bare_ && is_open_list_);
+    for (ScannedReading& reading : found.readings) take(std::move(reading));
+    if (is_open_list_ && (found.list_ends || (is_bare_ && !reader_.is_open()))) close_list();
+  }
+
+  void give_up() {
+    if (auto reading = reader_.give_up()) take(*std::move(reading));
+  }
+
+  void take(ScannedReading reading) {
+    (is_open_list_ ? list_ : run().points).push_back(std::move(reading));
   }
 
   /// Waypoints may be printed again in the middle of a run: a list that begins with the previous
@@ -213,7 +229,8 @@ class Scanner {
 
   ScannedLog finish() {
     ScannedLog log;
-    log.list_has_end = !is_cut_ && !is_open_list_;
+    log.list_has_end = !reader_.is_open() && !is_open_list_;
+    give_up();
     close_list();
     if (!runs_.empty()) {
       const ScannedRun& last = runs_.back();
@@ -242,11 +259,11 @@ class Scanner {
     return log;
   }
 
-  const std::string& file_;
+  ReadingReader reader_;
   std::vector<ScannedRun> runs_;
   std::size_t line_ = 0;
   bool is_open_list_ = false;
-  bool is_cut_ = false;  ///< the log ends in a reading
+  bool is_bare_ = false;  ///< the open list has no heading: it ends with its line
   std::vector<ScannedReading> list_;
   Singles loose_;
   Singles attempt_;  ///< of these the last attempt's

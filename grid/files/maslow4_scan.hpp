@@ -12,7 +12,6 @@
 
 #include "grid/belts/measured_belts.hpp"
 #include "grid/files/input_error.hpp"
-#include "grid/files/maslow4_text.hpp"
 #include "model/belts/belt.hpp"
 
 namespace chaintrue::grid::files {
@@ -74,12 +73,33 @@ struct ScannedReading {
   bool from_single_readings = false;
 };
 
-struct FoundReadings {
-  std::vector<ScannedReading> readings;
-  bool list_ends = false;  ///< a "]" in the line
+/// Reads lines in order. A reading may continue on the next lines.
+class ReadingReader {
+ public:
+  explicit ReadingReader(std::string file) : file_(std::move(file)) {}
+
+  struct Found {
+    std::vector<ScannedReading> readings;
+    bool list_ends = false;  ///< a "]" outside of readings
+  };
+  Found take(std::string_view line, std::size_t number);
+  /// A reading has begun that has not ended.
+  bool is_open() const { return open_; }
+  /// Ends such a reading: as one that is not readable, if it looks like one.
+  std::optional<ScannedReading> give_up();
+
+ private:
+  std::optional<ScannedReading> read(const std::string& text, bool is_closed = true) const;
+  void begin(std::size_t number, std::size_t column);
+
+  std::string file_;
+  bool open_ = false;
+  std::string text_;     ///< of the open reading
+  std::string outside_;  ///< after the last reading
+  std::size_t line_ = 0;
+  std::size_t column_ = 0;
+  std::size_t lines_ = 0;  ///< that the open reading has taken
 };
-/// `file` is the name used in messages.
-FoundReadings readings_in(const LogLine& line, const std::string& file);
 
 struct ScannedRun {
   std::string heading;

@@ -29,13 +29,6 @@ bool is_message_without_end(std::string_view line) {
          line.size() < kLongestMessage && count_equal(line, '[') > count_equal(line, ']');
 }
 
-/// A reading has some 60 characters; a terminal breaks it over two lines, seldom three.
-bool has_unfinished_reading(std::string_view text) {
-  constexpr std::size_t kLongestReading = 200;
-  const std::size_t begin = text.find_last_of("{}]");
-  return begin != npos && text[begin] == '{' && text.size() - begin <= kLongestReading;
-}
-
 }  // namespace
 
 std::string_view unquoted(std::string_view text) {
@@ -65,35 +58,19 @@ bool is_heading(std::string_view line) {
 
 std::vector<LogLine> log_lines(const std::string& text) {
   std::vector<LogLine> lines;
-  std::optional<std::size_t> unfinished;  // the line whose reading goes on
   std::size_t number = 0;
   for (std::string_view rest = text; !rest.empty();) {
     std::string line = cleaned(take_until(rest, '\n'));
     ++number;
-    const std::string reading = line.substr(0, line.find("//"));
-    if (has(line, "CLBM:")) unfinished.reset();
-    if (unfinished) {
-      std::string& begun = lines[*unfinished].text;
-      begun += '\n';
-      if (!is_other_output(line)) {
-        begun += reading;
-        if (!has_unfinished_reading(begun)) unfinished.reset();
-        continue;
-      }
-    }
     const bool goes_on = !lines.empty() && !line.empty() && lines.back().number + 1 == number &&
                          is_message_without_end(lines.back().text) && !is_other_output(line) &&
                          !is_heading(line) && !has(line, '{') && !has(line, "CLBM");
     if (goes_on) {
       lines.back().text += line;
-      continue;
+    } else {
+      lines.push_back({std::move(line), number});
     }
-    lines.push_back({std::move(line), number});
-    if (unfinished || !has_unfinished_reading(reading)) continue;
-    lines.back().text = reading;
-    unfinished = lines.size() - 1;
   }
-  if (unfinished) lines[*unfinished].is_cut = true;
   return lines;
 }
 

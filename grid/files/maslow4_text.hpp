@@ -14,8 +14,7 @@ namespace chaintrue::grid::files {
 
 struct LogLine {
   std::string text;
-  std::size_t number = 0;  ///< in the file, from 1; of one over several lines the first
-  bool is_cut = false;     ///< the log ends in its last reading
+  std::size_t number = 0;  ///< in the file, from 1; of a message over two lines the first
 };
 /// Without blanks and quotation marks at either end.
 std::string_view unquoted(std::string_view text);
