@@ -63,7 +63,7 @@ class MeanShifts {
         u_(root_->solve(e_)),
         quadratic_(e_.squaredNorm()),
         log_det_(marginalised.log_det),
-        taken_(root_->explained()) {}
+        taken_(root_->explained().transpose()) {}
 
   /// Removes one regressor of known size. Call before any other.
   void subtract(const VectorXd& reduced_column) {
@@ -75,22 +75,22 @@ class MeanShifts {
   /// Removes one regressor of free size, with the prior precision of its coefficient; 0: none.
   void free(const VectorXd& g, double prior) {
     VectorXd pg = g;
-    linear::add_product(pg, -1.0, taken_, linear::inner(taken_, g));
+    linear::add_product(pg, -1.0, linear::transposed(taken_), linear::product(taken_, g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
     quadratic_ -= ug * ug / denominator;
     u_ -= pg * (ug / denominator);
     log_det_ += std::log(prior > 0.0 ? denominator / prior : denominator);
-    taken_.conservativeResize(Eigen::NoChange, taken_.cols() + 1);
-    taken_.rightCols<1>() = pg / std::sqrt(denominator);
+    taken_.conservativeResize(taken_.rows() + 1, Eigen::NoChange);
+    taken_.bottomRows<1>() = pg.transpose() / std::sqrt(denominator);
   }
 
   /// (1): the drop of the quadratic form without the group; empty where nothing else determines its
   /// readings.
   std::optional<double> drop_without(const FreeGroup& group) const {
     const Few d = group.basis();
-    const auto own = taken_.middleRows(group.at, group.rows);
-    const Few rows = Few::Identity(group.rows, group.rows) - own.lazyProduct(own.transpose());
+    const auto own = taken_.middleCols(group.at, group.rows);
+    const Few rows = Few::Identity(group.rows, group.rows) - own.transpose().lazyProduct(own);
     const Few precision = d.transpose() * rows * d;
     const Few u = d.transpose() * u_.segment(group.at, group.rows);
     if (group.directions() == 2) return (u.transpose() * Matrix2d(precision).inverse() * u)(0, 0);
@@ -117,7 +117,7 @@ class MeanShifts {
   VectorXd u_;
   double quadratic_;
   double log_det_;
-  MatrixXd taken_;  ///< T
+  MatrixXd taken_;  ///< T'
 };
 
 MeanShifts under(MeanShifts shifts, const MarginalisedSystem& marginalised,
