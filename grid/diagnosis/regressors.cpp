@@ -202,6 +202,8 @@ Candidates candidates(const ObservationSet& session) {
 
 std::optional<VectorXd> signature(const ObservationSet& session, const State& state,
                                   const RegressorSystem& system, const SizedCause& cause) {
+  // The columns of belts are made about a frame (belts_system.cpp), not about a state.
+  if (!state.mechanism) return std::nullopt;
   return Signatures{session, state, system}(cause);
 }
 
