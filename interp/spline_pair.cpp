@@ -86,8 +86,8 @@ SplinePair::SplinePair(const TensorSpline& first, const TensorSpline& second)
 }
 
 std::ptrdiff_t SplinePair::Axis::search(double x) const {
-  const auto next =
-      std::ranges::upper_bound(intervals.begin() + 1, intervals.end(), x, {}, &Interval::low);
+  const auto next = std::upper_bound(intervals.begin() + 1, intervals.end(), x,
+                                     [](double place, const Interval& i) { return place < i.low; });
   return next - intervals.begin() - 1;
 }
 
