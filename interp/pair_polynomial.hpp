@@ -34,8 +34,8 @@ class alignas(64) PairPolynomial {
   /// At u and v, which rise by `per_x` and `per_y` with each unit of x and y.
   [[nodiscard, gnu::always_inline]] PairGradient at(double u, double v, double per_x,
                                                     double per_y) const {
-    // Horner's rule for the polynomial in u of each power of v of both surfaces: eight alike, which
-    // the compiler makes vectors of.
+    // Horner's rule in u, for each power of v of both surfaces. The compiler vectorises these eight
+    // identical computations.
     std::array<double, 8> p, slope;
 #pragma GCC unroll 8
     for (std::size_t l = 0; l < 8; ++l) {
@@ -45,7 +45,7 @@ class alignas(64) PairPolynomial {
       p[l] = b * u + c_[l];
     }
     const double v2 = v * v;
-    // The even and the odd powers of v, of both surfaces.
+    // Even powers of v in the first two numbers, odd powers in the last two.
     std::array<double, 4> f, f_slope;
     for (std::size_t l = 0; l < 4; ++l) {
       f[l] = p[l] + v2 * p[4 + l];

@@ -62,8 +62,8 @@ SplinePair::Axis::Axis(std::span<const double> nodes)
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     const double length = nodes[i + 1] - nodes[i];
     intervals.push_back({nodes[i], 1.0 / length});
-    // A place near a node may then fall into the wrong one of its intervals. Both give the same value:
-    // the third power of a thousand such differences is below rounding.
+    // A point this close to a node may be assigned to the wrong neighbouring interval. The spline is
+    // C2 there: the error grows with the third power of the distance and stays below rounding.
     even = even && std::fabs(length * per_mean_length - 1.0) <= 1e-9;
   }
 }
@@ -92,9 +92,10 @@ std::ptrdiff_t SplinePair::Axis::search(double x) const {
 }
 
 inline SplinePair::Place SplinePair::Axis::locate(double x) const {
-  // Held in range as a number: branches on an index are mispredicted near the edges of a small table.
+  // Clamped before it becomes an index: minimum and maximum are instructions, whereas a branch would
+  // be mispredicted for random points in a small table.
   const double nearest = std::min(std::max((x - first) * per_mean_length, 0.0), last);
-  // Even nodes need no search, whose comparisons random places mispredict.
+  // Evenly spaced nodes need no search.
   const std::ptrdiff_t index = even ? static_cast<int>(nearest) : search(x);
   const auto [low, per_length] = intervals.data()[index];
   return {index, (x - low) * per_length, per_length};

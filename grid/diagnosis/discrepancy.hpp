@@ -107,7 +107,8 @@ MatrixXd low_rank(const MatrixXd& covariance, double share);
 /// field's unit variance at any place below `least`.
 std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
                                    double least);
-/// The mixes of so many components that a field enters by: its direction, or each of them alone.
+/// The combinations of components through which a field enters: its direction, or each component
+/// by itself.
 std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -15,7 +15,7 @@ namespace {
 /// is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// One field's inner products, those of its first component above those of its second.
+/// The inner products of one field: the rows of its first component, then those of its second.
 struct Products {
   DiscrepancyField field;  ///< without its direction
   MatrixXd rows;           ///< 2 r x N, R^-1 times its effect on the kept rows, transposed

@@ -202,7 +202,7 @@ Candidates candidates(const ObservationSet& session) {
 
 std::optional<VectorXd> signature(const ObservationSet& session, const State& state,
                                   const RegressorSystem& system, const SizedCause& cause) {
-  // The columns of belts are made about a frame (belts_system.cpp), not about a state.
+  // Columns for belts are derivatives at a frame (belts_system.cpp), not at a state.
   if (!state.mechanism) return std::nullopt;
   return Signatures{session, state, system}(cause);
 }

@@ -74,7 +74,7 @@ class LeftOut {
     return held ? *held : residual;
   }
 
-  /// Those of a group of units with all of them left out.
+  /// Residuals of a group of units, all left out together.
   std::vector<VectorXd> residuals(const UnitGroup& group) const {
     Rows rows;
     std::vector<double> roots;
@@ -129,7 +129,7 @@ class LeftOut {
     return noise + spread;
   }
 
-  /// Of the fit itself.
+  /// Residual of a unit in the fit itself, with nothing left out.
   VectorXd residual_of(std::size_t unit) const {
     return problem_.units()[unit].segment(residuals_);
   }

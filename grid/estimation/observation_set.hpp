@@ -207,7 +207,7 @@ VectorXd setting_values(const ObservationSet& set, const MachineState& state);
 /// \throws std::invalid_argument for values that such a mechanism cannot have.
 [[nodiscard]] MachineState with_settings(const ObservationSet& set, MachineState state,
                                          const VectorXd& values);
-/// As above, or the value that cannot be.
+/// The same, but returns a message for values that such a mechanism cannot have.
 [[nodiscard]] tl::expected<MachineState, std::string> moved_to(const ObservationSet& set,
                                                                MachineState state,
                                                                const VectorXd& values);

@@ -58,7 +58,7 @@ struct MemberPath {
   std::size_t inner = 0;  ///< in what the std::optional holds
 };
 
-/// A new object.
+/// A default-constructed object.
 template <class T>
 const T& blank() {
   static const T object{};

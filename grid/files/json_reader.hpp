@@ -97,7 +97,7 @@ class RecordTable {
   };
   /// The field has the schema of its codec.
   Field& add(Field field, const SharedCodec& codec);
-  /// What a new object has there.
+  /// The field of a default-constructed object, as JSON.
   Json written_default(const Field& field) const;
   /// The default becomes part of the schema if it is a number, a choice, a boolean or a non-empty
   /// list of these. Texts have no default.

@@ -42,7 +42,7 @@ Json json_list(const Range& range, const Each& each) {
   return list;
 }
 
-/// The JSON pointer of what has this key, or number, in the value at `parent`.
+/// The JSON pointer of the member or element `key` of the value at `parent`.
 template <class Key>
 std::string pointer_below(const std::string& parent, const Key& key) {
   return (Json::json_pointer(parent) / key).to_string();

@@ -125,7 +125,7 @@ std::optional<double> length_with_unit_mm(std::string_view text) {
   double unit_mm = unit == "mm" ? 1.0 : unit == "cm" ? 10.0 : unit == "m" ? 1000.0 : kMmPerInch;
   double value = has_fraction ? number(3) + number(4) / number(5) : number(6);
   if (has_feet || has_fraction) {
-    // 13/8 of an inch, or a date, is not a reading of a rule.
+    // Nobody reads 13/8 of an inch from a rule; it may also be a date.
     const bool is_of_a_rule = unit_mm == kMmPerInch && (!has_fraction || number(4) < number(5)) &&
                               (!has_feet || value < kInchesPerFoot);
     if (!is_of_a_rule) return std::nullopt;

@@ -9,7 +9,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// No number or heading is longer. The library's matcher recurses for every character that it takes.
+/// Longer than any number or heading. std::regex recurses once for every character that it matches.
 constexpr std::size_t kLongest = 200;
 
 const std::regex& compiled(const char* pattern) {

@@ -22,7 +22,7 @@ namespace {
 constexpr Index kDraws = 400;
 constexpr double kLevel = 0.95;
 
-/// Of z, a row each.
+/// Standard normal draws of z, one in each row.
 MatrixXd drawn(Index directions) {
   constexpr std::uint64_t kSeed = 95;
   Random random(kSeed);

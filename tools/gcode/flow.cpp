@@ -82,7 +82,7 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
 
 void Flow::control(const CleanLine& line, std::size_t at) {
   const ControlLine control = parse(line, at);
-  // As in LinuxCNC, a line that is only searched for may have a rest.
+  // LinuxCNC checks this only on lines that it executes, not on those that it skips.
   if (control.stands_alone && control.rest < line.text.size())
     refuse(bad_flow, line.place(control.rest), "nothing may follow {}", control.keyword);
   (this->*control.execute)(line, control);

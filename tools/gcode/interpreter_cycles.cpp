@@ -135,7 +135,7 @@ void Interpreter::cycle(int motion) {
     cycle.rapid(cycle.retract);
     height = cycle.retract;
   }
-  // The traverse is not below the height at which the row began (G98) or the R plane (G99).
+  // Traverse no lower than the height at the start of the row (G98) or the R plane (G99).
   height = std::max(height, modes_.retract_to_r ? cycle.retract : sticky_.start);
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {

@@ -16,9 +16,9 @@ Answer limited(const std::string& program) {
   return ours(program, dialect);
 }
 
-/// Whether LinuxCNC 2.9 itself is wrong: a break in a while loop that ends by its condition ends a later
-/// loop too (reduced: o100 while [0] / o100 break / o100 endwhile / o102 do / o102 while [1] comes to
-/// its end there, though its last loop is endless).
+/// Whether the program triggers a bug of LinuxCNC 2.9: a break that is skipped because the condition of
+/// its while loop is false also ends a later do loop. Smallest example: o100 while [0] / o100 break /
+/// o100 endwhile / o102 do / o102 while [1] ends, although the last loop is endless.
 bool linuxcnc_errs(const std::string& program) {
   static const std::regex kBreakNotReached(R"(while \[#30 LT [01]\]\n.*\n.* if .*\n.* break\n)");
   return std::regex_search(program, kBreakNotReached);
