@@ -87,7 +87,7 @@ struct FinishedFit {
 
   void fill_units(Estimate& estimate) const {
     const EstimationInput& input = problem.input();
-    const LeftOut left_out(problem, fit, weights, !input.held_out_together.empty());
+    const LeftOut left_out(problem, fit, weights);
     for (const auto u : each_index(problem.units())) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);

@@ -16,7 +16,6 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
-#include "grid/estimation/local_design.hpp"
 #include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/estimation/surface_correction.hpp"
@@ -89,10 +88,6 @@ class JointProblem {
     observe(std::move(marks));
     fill_design(*system, state);
     eliminate_free_directions(*system, from, state);
-    local_.reset();
-    const bool many = design_.rows() > LocalDesign::kRowsForEachUnknown * unknowns_.total();
-    if (has_surface_ && many && free_.columns.empty())
-      local_.emplace(design_, units_, unknowns_, *observed_, basis_, surface_marks_);
     return {};
   }
 
@@ -149,8 +144,6 @@ class JointProblem {
     return as_double(rows) - fit.edf;
   }
 
-  /// The local design for many readings under a surface; null if the dense one is as fast.
-  const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, with a free sheet placed as its frame is defined.
   const std::vector<MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
@@ -355,7 +348,6 @@ class JointProblem {
   std::vector<SystemUnit> units_;
   MatrixXd design_;
   VectorXd response_;
-  std::optional<LocalDesign> local_;
   MatrixXd sure_design_;
   VectorXd sure_response_;
   FreeDirections free_;

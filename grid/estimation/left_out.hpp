@@ -26,15 +26,11 @@ namespace chaintrue::grid::estimation {
 /// A fit of a problem with these weights. All must outlive this.
 class LeftOut {
  public:
-  /// `groups`: those of residuals() are left out too.
-  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights,
-          bool groups = false)
+  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights)
       : problem_(problem),
         fit_(fit),
         weights_(weights),
         residuals_(problem.response() - problem.design() * fit.coefficients) {
-    if (problem.local() != nullptr) spreads_ = problem.local()->spreads(fit.covariance);
-    if (problem.local() != nullptr && !groups) return;
     const linear::Cholesky factor(fit.covariance);
     // Positive up to rounding.
     by_root_ = linear::product(problem.design(), factor.is_positive_definite()
@@ -154,7 +150,6 @@ class LeftOut {
 
   /// X C X'.
   MatrixXd spread_of(std::size_t unit) const {
-    if (!spreads_.empty()) return spreads_[unit];
     const SystemUnit& own = problem_.units()[unit];
     const auto root = by_root_.middleRows(own.first_row, own.rows);
     return root.lazyProduct(root.transpose());
@@ -168,7 +163,6 @@ class LeftOut {
   const interp::PenalisedFit& fit_;
   const VectorXd& weights_;
   VectorXd residuals_;             ///< of all rows
-  std::vector<MatrixXd> spreads_;  ///< X C X' of each unit, where the design is local
   MatrixXd by_root_;               ///< X R of all units, C = R R'
 };
 
