@@ -88,6 +88,7 @@ class JointProblem {
     observe(std::move(marks));
     fill_design(*system, state);
     eliminate_free_directions(*system, from, state);
+    relate_values();
     return {};
   }
 
@@ -149,35 +150,25 @@ class JointProblem {
     return laid_marks_[observation];
   }
 
-  /// All unknowns of a fit, including the free directions, and their covariance.
-  VectorXd coefficients(const interp::PenalisedFit& fit) const {
-    VectorXd all = fit.coefficients;
-    if (!free_.columns.empty()) {
-      const VectorXd free = free_.constant + free_.following * all;
-      all(free_.columns) = free;
-    }
-    return all;
+  /// All columns of the set of a fit, including the free directions, then the scales and the splines'
+  /// coefficients; and their covariance, as far as the places observe the splines.
+  VectorXd values(const interp::PenalisedFit& fit) const {
+    return constant_ + to_values_ * fit.coefficients;
   }
   MatrixXd covariance(const interp::PenalisedFit& fit) const {
-    if (free_.columns.empty()) return fit.corrected_covariance;
-    MatrixXd follows = MatrixXd::Identity(unknowns_.total(), unknowns_.total());
-    follows(free_.columns, Eigen::all) = free_.following;
-    return linear::carried(follows, fit.corrected_covariance);
+    return linear::carried(to_values_, fit.corrected_covariance);
   }
+  /// Their order; a surface that there is not has zeros.
+  FitColumns columns() const { return {unknowns_.of_set, basis_.size()}; }
 
   /// The state that a fit of the problem leads to.
   State state_of(const interp::PenalisedFit& fit) const {
-    const VectorXd all = coefficients(fit);
+    const VectorXd all = values(fit);
     State state = stated();
     state.settings = all.head(set_.setting_columns());
     for (const Side side : kSides) {
-      if (unknowns_.scales == 0) break;
-      state.surface.scale[side] = all[unknowns_.scale(side)];
-      if (!has_surface_) continue;
-      state.surface.coefficients[side] =
-          observed_->polynomials * all.segment(unknowns_.polynomial(side), unknowns_.polynomials) +
-          observed_->penalised *
-              all.segment(unknowns_.first_penalised_of(side), unknowns_.penalised);
+      state.surface.scale[side] = all[columns().scale(side)];
+      state.surface.coefficients[side] = all.segment(columns().spline(side), basis_.size());
     }
     return state;
   }
@@ -218,6 +209,24 @@ class JointProblem {
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
     unknowns_.polynomials = observed_->polynomials.cols();
     unknowns_.penalised = observed_->penalised.cols();
+  }
+
+  /// The values that the unknowns lead to, linear in these.
+  void relate_values() {
+    constant_ = VectorXd::Zero(columns().total());
+    to_values_ = MatrixXd::Zero(columns().total(), unknowns_.total());
+    const Index plain = unknowns_.of_set + unknowns_.scales;
+    to_values_.topLeftCorner(plain, plain).setIdentity();
+    constant_(free_.columns) = free_.constant;
+    to_values_(free_.columns, Eigen::all) = free_.following;
+    for (const Side side : kSides) {
+      if (!has_surface_) break;
+      auto spline = to_values_.middleRows(columns().spline(side), basis_.size());
+      spline.middleCols(unknowns_.polynomial(side), unknowns_.polynomials) =
+          observed_->polynomials;
+      spline.middleCols(unknowns_.first_penalised_of(side), unknowns_.penalised) =
+          observed_->penalised;
+    }
   }
 
   /// e f + s at the state.
@@ -299,7 +308,7 @@ class JointProblem {
 
   void eliminate_free_directions(const LinearisedSystem& system,
                                  const std::vector<ObservedFrom>& from, const State& state) {
-    free_ = {};
+    free_ = {{}, {}, MatrixXd(0, unknowns_.total())};
     laid_marks_.clear();
     for (const auto k : each_index(set_.parts)) {
       const ObservationPart& part = set_.parts[k];
@@ -351,6 +360,8 @@ class JointProblem {
   MatrixXd sure_design_;
   VectorXd sure_response_;
   FreeDirections free_;
+  VectorXd constant_;
+  MatrixXd to_values_;
 };
 
 }  // namespace chaintrue::grid::estimation
