@@ -86,9 +86,9 @@ class JointProblem {
     for (const SystemPlace& place : system->places)
       marks.push_back(corrections[place.observation].to_surface(place.state.mark));
     observe(std::move(marks));
+    relate_values();
     fill_design(*system, state);
     eliminate_free_directions(*system, from, state);
-    relate_values();
     return {};
   }
 
@@ -145,10 +145,8 @@ class JointProblem {
     return as_double(rows) - fit.edf;
   }
 
-  /// Marks of an observation's places, with a free sheet placed as its frame is defined.
-  const std::vector<MarkPoint>& marks(std::size_t observation) const {
-    return laid_marks_[observation];
-  }
+  /// Marks of each observation's places, with a free sheet placed as its frame is defined.
+  const std::vector<std::vector<MarkPoint>>& marks() const { return laid_marks_; }
 
   /// All columns of the set of a fit, including the free directions, then the scales and the splines'
   /// coefficients; and their covariance, as far as the places observe the splines.
@@ -217,8 +215,6 @@ class JointProblem {
     to_values_ = MatrixXd::Zero(columns().total(), unknowns_.total());
     const Index plain = unknowns_.of_set + unknowns_.scales;
     to_values_.topLeftCorner(plain, plain).setIdentity();
-    constant_(free_.columns) = free_.constant;
-    to_values_(free_.columns, Eigen::all) = free_.following;
     for (const Side side : kSides) {
       if (!has_surface_) break;
       auto spline = to_values_.middleRows(columns().spline(side), basis_.size());
@@ -308,7 +304,6 @@ class JointProblem {
 
   void eliminate_free_directions(const LinearisedSystem& system,
                                  const std::vector<ObservedFrom>& from, const State& state) {
-    free_ = {{}, {}, MatrixXd(0, unknowns_.total())};
     laid_marks_.clear();
     for (const auto k : each_index(set_.parts)) {
       const ObservationPart& part = set_.parts[k];
@@ -335,13 +330,17 @@ class JointProblem {
             to_mark * (lengths(Eigen::all, set_.columns_of(part)) * from[k].settings +
                        correction_at(p, at, state));
       }
-      laid_marks_.push_back(free_.add(places));
+      if (const ColumnSet& free = places.free_columns; !free.empty()) {
+        const auto [constant, by_unknown] = places.lay();
+        constant_(free) = constant;
+        to_values_(free, Eigen::all) = by_unknown;
+        const MatrixXd by_free = design_(Eigen::all, free);
+        response_ -= by_free * constant;
+        design_(Eigen::all, free).setZero();
+        design_ += by_free * by_unknown;
+      }
+      laid_marks_.push_back(std::move(places.marks));
     }
-    if (free_.columns.empty()) return;
-    const MatrixXd by_free = design_(Eigen::all, free_.columns);
-    response_ -= by_free * free_.constant;
-    design_ += by_free * free_.following;
-    design_(Eigen::all, free_.columns).setZero();
   }
 
   const EstimationInput& input_;
@@ -359,8 +358,7 @@ class JointProblem {
   VectorXd response_;
   MatrixXd sure_design_;
   VectorXd sure_response_;
-  FreeDirections free_;
-  VectorXd constant_;
+  VectorXd constant_;  ///< of the values, and their derivative by the unknowns
   MatrixXd to_values_;
 };
 
