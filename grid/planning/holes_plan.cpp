@@ -147,11 +147,7 @@ MeasuredHoles set_of(const Machine& machine, const HolesPlanRequest& request, co
     return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
   });
   Indices number(holes.size());
-  MeasuredHoles set;
-  set.name = "plan";
-  set.machine = machine;
-  set.tape.sigma_mm = request.tape_sigma_mm;
-  set.hole_sigma_mm = request.hole_sigma_mm;
+  MeasuredHoles set = empty_set(machine, request);
   for (const auto i : each_index(order)) {
     number[order[i]] = i;
     set.holes.push_back(
