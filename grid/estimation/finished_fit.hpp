@@ -78,12 +78,15 @@ struct FinishedFit {
       const auto at = as_index(u);
       const MatrixXd back = unit.whitening.inverse();
       const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
-      UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};
-      own.residual = back * left_out.residual_of(u);
-      const LeftOut::Conditioned conditioned = left_out.conditioned(u);
-      own.left_out = back * conditioned.residual;
-      own.left_out_covariance = linear::carried(back, conditioned.covariance);
-      estimate.units.push_back(std::move(own));
+      const auto [residual, own_covariance] = left_out.conditioned(u);
+      estimate.units.push_back({unit.observation,
+                                unit.unit,
+                                weights[at],
+                                distance,
+                                back * left_out.residual_of(u),
+                                back * residual,
+                                linear::carried(back, own_covariance),
+                                {}});
     }
     for (const Shift& one : shifts(problem, fit, true)) {
       const SystemUnit& unit = problem.units()[one.at.unit];
