@@ -207,8 +207,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
 /// The map at N places of new readings: d(lengths)/d(mark), and the uncertainty of its lengths, one
 /// sigma a column, jointly or place by place.
 struct MapAt {
-  std::vector<ChainLengths> lengths;
-  std::vector<Matrix2d> by_mark;
+  std::vector<MapLengths> here;
   MatrixXd factor;                  ///< F, 2 N x any
   Eigen::SparseMatrix<double> own;  ///< of each place by itself where F has none, 2 N x 2 N
   /// 2 N x p, by the settings of the machine; no columns for a map without one.
@@ -224,8 +223,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's uncertainty is not linear in the unknowns, so its points are used directly.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  constexpr auto& kOfMachine = kMachineSettings;
-  at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
+  at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kMachineSettings) : 0);
   at.factor.resize(2 * count, is_joint ? surface->covariance_factor.cols() : 0);
   at.own.resize(2 * count, 2 * count);
   std::optional<ReadingModel> model;
@@ -239,8 +237,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
       return failed(Reason::unreachable, fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm,
                                                      found.error().sentence()));
     }
-    at.lengths.push_back(found->here.lengths);
-    at.by_mark.push_back(found->here.mark_jacobian);
+    at.here.push_back(found->here);
     if (is_joint) {
       // The rest is what the map's own continuation changes.
       at.factor.middleRows<2>(2 * i) = found->spread_mm.leftCols(at.factor.cols());
@@ -254,7 +251,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
     if (surface == nullptr) continue;
     at.by_parameter.middleRows<2>(2 * i) = observation::lengths_by_setting(
         {*model, surface->sheet}, model->at(surface->sheet.to_bed(mark)).value(), mark,
-        {kOfMachine.begin(), kOfMachine.end()});
+        {kMachineSettings.begin(), kMachineSettings.end()});
   }
   return at;
 }
@@ -284,7 +281,7 @@ class Gathered {
 
   CheckReadings readings() && {
     const auto rows = std::ssize(residual_mm_);
-    const auto places = std::ssize(at_.lengths);
+    const auto places = std::ssize(at_.here);
     readings_.residual_mm = Eigen::Map<const VectorXd>(residual_mm_.data(), rows);
     readings_.by_length.resize(rows, 2 * places);
     readings_.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
@@ -297,7 +294,7 @@ class Gathered {
     readings_.by_parameter = readings_.by_length * at_.by_parameter;
     readings_.lengths_mm.resize(2 * places);
     for (const Index i : each_below(places))
-      readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.lengths[as_size(i)]);
+      readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.here[as_size(i)].lengths);
     return std::move(readings_);
   }
 
@@ -325,11 +322,10 @@ class Gathered {
     MatrixXd by_sheet(2 * std::ssize(part.points), 3);
     for (const auto i : each_index(part.points)) {
       const LengthPoint& point = part.points[i].point;
-      const Matrix2d& by_mark = at_.by_mark[first + i];
+      const auto& [lengths, by_mark] = at_.here[first + i];
       auto by_own_sheet = by_sheet.middleRows<2>(2 * as_index(i));
       by_own_sheet = by_mark * part.placement.sensitivity(point.mark);
-      const Vector2d residual =
-          difference(point.lengths, at_.lengths[first + i]) + by_own_sheet * laid;
+      const Vector2d residual = difference(point.lengths, lengths) + by_own_sheet * laid;
       add_block(Matrix2d::Identity(), row(), 2 * as_index(first + i), by_length_);
       append_all(residual_mm_, residual);
       const std::string name = fmt::format("point {}{}", point.index + 1, of);
@@ -356,7 +352,7 @@ class Gathered {
       const auto column = 2 * as_index(hole);
       const auto by_mark = geometry.by_mark.middleCols<2>(column);
       // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
-      add_block(-by_mark * at_.by_mark[first + hole].inverse(), before,
+      add_block(-by_mark * at_.here[first + hole].mark_jacobian.inverse(), before,
                 2 * as_index(first) + column, by_length_);
       by_sheet -= by_mark * SheetPlacement{}.sensitivity(part.marks[hole]);
     }

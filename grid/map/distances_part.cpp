@@ -111,11 +111,9 @@ class DistancesPart final : public FitPart {
     fewest_good = kFewestHoleDistances;
   }
 
-  std::string few_good(std::size_t bad, std::size_t all) const override {
-    std::string sentence = fmt::format(
-        "{} of {} distances contradict the others or the machine file; check the machine's "
-        "measures, the controller's settings, and which holes the distances join",
-        bad, all);
+  std::string to_check() const override {
+    std::string sentence =
+        "the machine's measures, the controller's settings, and which holes the distances join";
     if (const auto tape_zero = suspected_tape_zero_offset_mm(set())) {
       sentence += fmt::format(", and whether the tape's hook offset ({:.0f} mm?) was left out",
                               std::round(*tape_zero));

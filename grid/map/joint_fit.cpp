@@ -105,12 +105,14 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
     }
     const bool alone = parts.size() == 1;
     if (3 * bad <= all && (!alone || all - bad >= parts[k]->fewest_good)) continue;
+    const std::string_view units = parts[k]->observation->kind().units;
     return failed(
         FitReason::rank_deficient,
-        alone ? parts[k]->few_good(bad, all)
+        alone ? fmt::format("{} of {} {} contradict the others or the machine file; check {}", bad,
+                            all, units, parts[k]->to_check())
               : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
                             "all from one machine, with the same chains on the same teeth?",
-                            files[k].name, bad, all, parts[k]->observation->kind().units));
+                            files[k].name, bad, all, units));
   }
   return {};
 }
