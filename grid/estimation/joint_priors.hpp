@@ -68,10 +68,10 @@ inline void add_stated_priors(const JointProblem& joint, interp::PenalisedProble
     const auto& stated = set.mechanism->parameters()[as_size(i)].stated;
     if (stated) pull[i] = of_machine(i, i) * (*stated - set.mechanism->values()[i]);
   }
-  for (const Index i : each_below(joint.sure_design().rows())) {
-    const RowVectorXd row = joint.sure_design().row(i).head(parameters);
-    of_machine += row.transpose() * row;
-    pull += row.transpose() * joint.sure_response()[i];
+  for (const SystemUnit& unit : joint.certain()) {
+    const MatrixXd own = joint.design().block(unit.first_row, 0, unit.rows, parameters);
+    of_machine += own.transpose() * own;
+    pull += own.transpose() * unit.segment(joint.response());
   }
   problem.prior_mean.head(parameters) = linear::PivotedCholesky(of_machine).solve(pull);
 }

@@ -74,10 +74,9 @@ class JointProblem {
     const auto mechanism = mechanism_at(state.settings);
     std::vector<ObservedFrom> from;
     for (const auto k : each_index(set_.parts)) {
-      const bool about_none =
-          is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
       from.push_back(
-          {{mechanism, sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
+          {{mechanism, sheet_at(state.settings, k),
+            is_about_surface(k) ? &corrections[k] : nullptr},
            state.settings(set_.columns_of(set_.parts[k]))});
     }
     const auto system = estimation::linearise(set_, from);
@@ -125,13 +124,12 @@ class JointProblem {
   const ObservedSubspace* observed() const { return observed_ ? &*observed_ : nullptr; }
   /// Some places follow from the machine: they move with what is estimated.
   bool places_move() const { return places_move_; }
-  /// Units that may be rejected, and their whitened rows by all unknowns.
+  /// Units that may be rejected, readings that cannot be outliers, and the whitened rows of both by
+  /// all unknowns.
   const std::vector<SystemUnit>& units() const { return units_; }
+  const std::vector<SystemUnit>& certain() const { return certain_; }
   const MatrixXd& design() const { return design_; }
   const VectorXd& response() const { return response_; }
-  /// Rows of readings that cannot be outliers.
-  const MatrixXd& sure_design() const { return sure_design_; }
-  const VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
   const Rows& rejected(std::size_t unit) const {
     static const Rows kNone;
@@ -199,6 +197,10 @@ class JointProblem {
   static bool is_linear_in_correction(const observation::Observation& observation) {
     return observation.places().empty() || observation.kind().reads_chains;
   }
+  /// An observation's rows are linearised about the state's surface.
+  bool is_about_surface(std::size_t observation) const {
+    return input_.fixed_weights || !is_linear_in_correction(*input_.observations[observation]);
+  }
 
   /// The part of the surface that the places observe; computed once if they are fixed.
   void observe(std::vector<MarkPoint> places) {
@@ -234,26 +236,14 @@ class JointProblem {
   }
 
   void fill_design(const LinearisedSystem& system, const State& state) {
-    MatrixXd design = MatrixXd::Zero(system.response.size(), unknowns_.total());
-    VectorXd response = system.response;
-    design.leftCols(unknowns_.of_set) = system.by_setting;
-    Rows rows;
-    Rows certain_rows;
-    const auto take = [&](const SystemUnit& unit, Rows& list) {
-      add_chain_columns(system, unit, state, design, response);
-      for (const Index i : each_below(unit.rows)) list.push_back(unit.first_row + i);
-    };
+    design_ = MatrixXd::Zero(system.response.size(), unknowns_.total());
+    design_.leftCols(unknowns_.of_set) = system.by_setting;
+    response_ = system.response;
     units_ = system.units;
-    for (SystemUnit& unit : units_) {
-      const auto first = std::ssize(rows);
-      take(unit, rows);
-      unit.first_row = first;
+    certain_ = system.certain;
+    for (const auto* units : {&units_, &certain_}) {
+      for (const SystemUnit& unit : *units) add_chain_columns(system, unit, state);
     }
-    for (const SystemUnit& unit : system.certain) take(unit, certain_rows);
-    design_ = design(rows, Eigen::all);
-    response_ = response(rows);
-    sure_design_ = design(certain_rows, Eigen::all);
-    sure_response_ = response(certain_rows);
   }
 
   /// Adds a chain's length and its surface at a place to rows, `by_chain` being their derivatives by
@@ -271,16 +261,16 @@ class JointProblem {
   }
 
   /// The scales' and the surface's columns of a unit.
-  void add_chain_columns(const LinearisedSystem& system, const SystemUnit& unit, const State& state,
-                         MatrixXd& design, VectorXd& response) const {
+  void add_chain_columns(const LinearisedSystem& system, const SystemUnit& unit,
+                         const State& state) {
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
       for (const Side side : kSides) {
         const VectorXd by_chain = place.by_chain.col(row_of(side));
-        add_chain(place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
+        add_chain(place.place, at, side, by_chain, design_.middleRows(unit.first_row, unit.rows));
       }
-      if (!is_linear_in_correction(*input_.observations[unit.observation]) || input_.fixed_weights)
-        response.segment(unit.first_row, unit.rows) +=
+      if (is_about_surface(unit.observation))
+        response_.segment(unit.first_row, unit.rows) +=
             place.by_chain * correction_at(place.place, at, state);
     }
   }
@@ -353,11 +343,9 @@ class JointProblem {
   std::optional<ObservedSubspace> observed_;
   std::vector<MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
   std::vector<std::vector<MarkPoint>> laid_marks_;
-  std::vector<SystemUnit> units_;
+  std::vector<SystemUnit> units_, certain_;
   MatrixXd design_;
   VectorXd response_;
-  MatrixXd sure_design_;
-  VectorXd sure_response_;
   VectorXd constant_;  ///< of the values, and their derivative by the unknowns
   MatrixXd to_values_;
 };

@@ -34,7 +34,7 @@ class LeftOut {
     by_root_ = linear::product(problem.design(), factor.is_positive_definite()
                                                      ? factor.lower()
                                                      : linear::covariance_root(fit.covariance));
-    root_.resize(residuals_.size());
+    root_ = VectorXd::Zero(residuals_.size());
     for (const auto u : each_index(problem.units())) {
       const SystemUnit& unit = problem.units()[u];
       root_.segment(unit.first_row, unit.rows).setConstant(std::sqrt(weights[as_index(u)]));
