@@ -32,12 +32,10 @@ Machine with_effects_that(Machine machine, Keep keep) {
 }
 
 std::string names_of(const Machine& machine) {
-  std::string names;
-  for (const AppliedEffect& applied : machine.effects) {
-    names += fmt::format("{}{}{}{}", names.empty() ? "" : ", ", applied.effect,
-                         applied.side.empty() ? "" : " ", applied.side);
-  }
-  return names;
+  const auto name = [](const AppliedEffect& one) {
+    return one.side.empty() ? one.effect : one.effect + " " + one.side;
+  };
+  return fmt::format("{}", fmt::join(mapped(machine.effects, name), ", "));
 }
 
 tl::expected<std::vector<ChainLengths>, FitFailure> readings_with(
