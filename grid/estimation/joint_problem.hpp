@@ -146,8 +146,8 @@ class JointProblem {
   /// Marks of each observation's places, with a free sheet placed as its frame is defined.
   const std::vector<std::vector<MarkPoint>>& marks() const { return laid_marks_; }
 
-  /// All columns of the set of a fit, including the free directions, then the scales and the splines'
-  /// coefficients; and their covariance, as far as the places observe the splines.
+  /// All columns of the set of a fit, including the free directions, then the scales and the
+  /// coefficients of the splines; and their covariance, as far as the places observe the splines.
   VectorXd values(const interp::PenalisedFit& fit) const {
     return constant_ + to_values_ * fit.coefficients;
   }

@@ -29,8 +29,8 @@ VectorXd column_of(const CheckReadings& readings, const Quantity& quantity) {
   return readings.by_length * added;
 }
 
-/// log of the evidence of hypotheses, K being factored once. A hypothesis adds a few
-/// directions U, or removes one unit's information:
+/// log of the evidence of hypotheses, K being factored once. A hypothesis adds a few directions U, or
+/// removes one unit's information:
 ///   x' (K + U U')^-1 x = x' K^-1 x - x' K^-1 U M^-1 U' K^-1 x,  |K + U U'| = |K| |M|,
 ///   M = I + U' K^-1 U     (W)
 class Evidence {
@@ -220,8 +220,7 @@ double rms_over(const CheckUnit& unit, const std::vector<CheckResidual>& residua
 }  // namespace
 
 std::string_view name(CheckVerdict verdict) {
-  constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
-  return kNames[as_size(verdict)];
+  return word_of(verdict, {"valid", "valid_after_rezeroing", "measure_again"});
 }
 
 QuantityFound CheckHypothesis::added(std::size_t length) const {

@@ -89,9 +89,8 @@ std::optional<MarkPoint> worst_free(const CompensationMap& map, const Bed& bed, 
 /// row.
 void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
   const auto row_of = [&rows](const MarkPoint& mark) {
-    const auto nearest = min_element(rows, [&](double a, double b) {
-      return std::abs(a - mark.y_mm) < std::abs(b - mark.y_mm);
-    });
+    const auto nearest =
+        min_element(rows, ascending([&](double row) { return std::abs(row - mark.y_mm); }));
     return nearest - rows.begin();
   };
   sort(marks, [&](const MarkPoint& a, const MarkPoint& b) {
