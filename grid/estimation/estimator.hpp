@@ -156,10 +156,7 @@ class Estimator {
       }
       is_linearised_ = false;
       begin_weights();
-      if (as_stated_.empty()) {
-        for (const auto k : each_index(input_.observations))
-          as_stated_.push_back(problem_->marks(k));
-      }
+      if (as_stated_.empty()) as_stated_ = problem_->marks();
       Fit fit = solve(weights_, smoothing, perhaps_last && problem_->has_surface());
       if (!fit) return failed(fit);
       fit_ = *std::move(fit);

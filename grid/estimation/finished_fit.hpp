@@ -17,32 +17,6 @@
 
 namespace chaintrue::grid::estimation {
 
-/// The part of a map's covariance that the places observe, and the part that keeps its prior.
-inline MatrixXd map_covariance(const JointProblem& problem, const interp::PenalisedFit& fit,
-                               const FitColumns& columns) {
-  const Unknowns& unknowns = problem.unknowns();
-  const ObservedSubspace* observed = problem.observed();
-  MatrixXd to_splines = MatrixXd::Zero(columns.total(), unknowns.total());
-  to_splines.topLeftCorner(columns.settings, columns.settings).setIdentity();
-  for (const Side side : kSides) {
-    if (unknowns.scales == 0) break;
-    to_splines(columns.scale(side), unknowns.scale(side)) = 1.0;
-    if (observed == nullptr) continue;
-    auto spline = to_splines.middleRows(columns.spline(side), columns.basis);
-    spline.middleCols(unknowns.polynomial(side), unknowns.polynomials) = observed->polynomials;
-    spline.middleCols(unknowns.first_penalised_of(side), unknowns.penalised) = observed->penalised;
-  }
-  MatrixXd result = linear::carried(to_splines, problem.covariance(fit));
-  if (observed == nullptr) return result;
-  const MatrixXd unobserved =
-      fit.inverse_lambda * observed->null_space * observed->null_space.transpose();
-  for (const Side side : kSides) {
-    result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
-        unobserved;
-  }
-  return result;
-}
-
 struct FinishedFit {
   const JointProblem& problem;
   const interp::PenalisedFit& fit;
@@ -50,11 +24,13 @@ struct FinishedFit {
   const VectorXd& weights;
   const VectorXd& distances;  ///< of units; those with fixed weights are found here
   const std::vector<std::vector<MarkPoint>>& as_stated;
+  VectorXd values = problem.values(fit);
+  MatrixXd covariance = problem.covariance(fit);
 
   [[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate() const {
     const EstimationInput& input = problem.input();
     Estimate estimate{.machine = input.machine, .surface = state.surface};
-    estimate.mechanism = problem.mechanism_at(problem.coefficients(fit));
+    estimate.mechanism = problem.mechanism_at(values);
     if (const auto* chains = dynamic_cast<const ReadingModel*>(estimate.mechanism.get())) {
       estimate.machine = chains->machine();
       estimate.settings =
@@ -73,32 +49,44 @@ struct FinishedFit {
   void fill_covariances(Estimate& estimate) const {
     const Unknowns& unknowns = problem.unknowns();
     estimate.columns = {problem.settings(), estimate.surface.basis.size()};
-    estimate.covariance = map_covariance(problem, fit, estimate.columns);
-    const VectorXd coefficients = problem.coefficients(fit);
-    const auto with_scales = [&](Index settings) {
+    // The first settings, and as many columns after all those of the set.
+    const auto with = [&](Index settings, Index after) {
       auto columns = numbers_below<Index>(settings);
-      for (const Index i : each_below(unknowns.scales)) columns.push_back(unknowns.of_set + i);
+      for (const Index i : each_below(after)) columns.push_back(unknowns.of_set + i);
       return columns;
     };
-    estimate.map_unknowns = coefficients(with_scales(problem.settings()));
-    const auto own = with_scales(problem.set().parameters());
-    estimate.knowledge = {coefficients(own), problem.covariance(fit)(own, own)};
+    const auto of_map = with(problem.settings(), values.size() - unknowns.of_set);
+    estimate.map_unknowns = values(with(problem.settings(), unknowns.scales));
+    estimate.covariance = covariance(of_map, of_map);
+    const auto own = with(problem.set().parameters(), unknowns.scales);
+    estimate.knowledge = {values(own), covariance(own, own)};
+    if (!problem.has_surface()) return;
+    // What no place observes keeps its prior.
+    const MatrixXd unobserved =
+        fit.inverse_lambda * linear::outer(problem.observed()->null_space);
+    for (const Side side : kSides) {
+      const Index first = estimate.columns.spline(side);
+      estimate.covariance.block(first, first, unobserved.rows(), unobserved.cols()) += unobserved;
+    }
   }
 
   void fill_units(Estimate& estimate) const {
     const EstimationInput& input = problem.input();
-    const LeftOut left_out(problem, fit, weights, !input.held_out_together.empty());
+    const LeftOut left_out(problem, fit, weights);
     for (const auto u : each_index(problem.units())) {
       const SystemUnit& unit = problem.units()[u];
       const auto at = as_index(u);
       const MatrixXd back = unit.whitening.inverse();
       const double distance = input.fixed_weights ? left_out.distance(u) : distances[at];
-      UnitEstimate own{unit.observation, unit.unit, weights[at], distance, {}, {}, {}, {}};
-      own.residual = back * left_out.residual_of(u);
-      const LeftOut::Conditioned conditioned = left_out.conditioned(u);
-      own.left_out = back * conditioned.residual;
-      own.left_out_covariance = linear::carried(back, conditioned.covariance);
-      estimate.units.push_back(std::move(own));
+      const auto [residual, own_covariance] = left_out.conditioned(u);
+      estimate.units.push_back({unit.observation,
+                                unit.unit,
+                                weights[at],
+                                distance,
+                                back * left_out.residual_of(u),
+                                back * residual,
+                                linear::carried(back, own_covariance),
+                                {}});
     }
     for (const Shift& one : shifts(problem, fit, true)) {
       const SystemUnit& unit = problem.units()[one.at.unit];
@@ -106,22 +94,24 @@ struct FinishedFit {
           {unit.observation, {unit.unit, one.at.reading}, one.residual_mm, one.sigmas});
     }
     for (const UnitGroup& group : input.held_out_together) {
-      const auto residuals = left_out.residuals(group);
-      for (const auto k : each_index(group)) {
-        estimate.units[group[k]].left_out_with_group =
-            problem.units()[group[k]].whitening.inverse() * residuals[k];
+      const VectorXd residuals = left_out.residuals(group);
+      Index row = 0;
+      for (const std::size_t u : group) {
+        const SystemUnit& unit = problem.units()[u];
+        estimate.units[u].left_out_with_group =
+            unit.whitening.inverse() * residuals.segment(row, unit.rows);
+        row += unit.rows;
       }
     }
   }
 
   tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const {
-    const VectorXd coefficients = problem.coefficients(fit);
-    const VectorXd sigma = problem.covariance(fit).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const VectorXd sigma = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
     const auto corrections = problem.corrections_of(state);
     for (const auto k : each_index(problem.set().parts)) {
       const ObservationPart& part = problem.set().parts[k];
       ObservationEstimate own;
-      own.sheet = problem.sheet_at(coefficients, k);
+      own.sheet = problem.sheet_at(values, k);
       const auto line =
           part.observation->linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
       if (!line) {
@@ -130,7 +120,7 @@ struct FinishedFit {
       }
       own.predicted = line->predicted;
       if (!part.zero_columns.empty()) {
-        const Vector2d zeros = coefficients(part.zero_columns);
+        const Vector2d zeros = values(part.zero_columns);
         const Vector2d zero_sigma = sigma(part.zero_columns);
         own.zeros = {{{zeros[0], zero_sigma[0]}, {zeros[1], zero_sigma[1]}}};
         for (const auto u : each_index(line->units)) {
@@ -143,7 +133,7 @@ struct FinishedFit {
         const observation::ChainPlaceState& place = line->places[i];
         own.places.push_back({as_stated[k][i], place.mark, place.by_mark, place.reading.lengths});
       }
-      own.nuisance = coefficients(part.nuisance_columns);
+      own.nuisance = values(part.nuisance_columns);
       own.nuisance_sigma = sigma(part.nuisance_columns);
       estimate.observations.push_back(std::move(own));
     }

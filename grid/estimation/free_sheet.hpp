@@ -61,41 +61,27 @@ struct PlacesOnSheet {
     }
     return all;
   }
-};
 
-/// Free directions of all sheets.
-struct FreeDirections {
-  ColumnSet columns;   ///< x_f
-  VectorXd constant;   ///< a
-  MatrixXd following;  ///< F by all unknowns, nothing by x_f
-
-  /// Adds (1) of one observation. \returns its marks with the free directions corrected and all else
-  /// unchanged.
-  std::vector<MarkPoint> add(const PlacesOnSheet& places) {
-    std::vector<MarkPoint> marks = places.marks;
-    if (places.free_columns.empty()) return marks;
-    const MatrixXd motion = places.whole_motion()(places.free_rows, Eigen::all);
-    const MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
-    const MatrixXd inverse = linear::inverse(linear::product(motion, by_free));
-    const VectorXd alongside = places.alongside();
-    const auto needed = [&](const VectorXd& off) -> VectorXd {
-      return -linear::product(inverse, linear::product(motion, off));
-    };
-    const Index before = constant.size();
-    const Index more = std::ssize(places.free_columns);
-    append_all(columns, places.free_columns);
-    constant.conservativeResize(before + more);
-    constant.tail(more) = needed(alongside - places.moved);
-    following.conservativeResize(before + more, places.by_unknown.cols());
-    following.bottomRows(more) =
-        -linear::product(inverse, linear::product(motion, places.by_unknown));
-    following.bottomRows(more)(Eigen::all, places.free_columns).setZero();
-    const VectorXd shift = linear::product(by_free, needed(alongside));
+  /// (1)
+  struct Following {
+    VectorXd constant;    ///< a
+    MatrixXd by_unknown;  ///< F by all unknowns, nothing by x_f
+  };
+  /// Corrects the marks in the free directions.
+  Following lay() {
+    const MatrixXd motion = whole_motion()(free_rows, Eigen::all);
+    const MatrixXd by_free = by_unknown(Eigen::all, free_columns);
+    const MatrixXd needed =
+        -linear::product(linear::inverse(linear::product(motion, by_free)), motion);
+    const VectorXd off = alongside();
+    Following following{needed * (off - moved), linear::product(needed, by_unknown)};
+    following.by_unknown(Eigen::all, free_columns).setZero();
+    const VectorXd shift = by_free * (needed * off);
     for (const auto i : each_index(marks)) {
       marks[i].x_mm += shift[2 * as_index(i)];
       marks[i].y_mm += shift[2 * as_index(i) + 1];
     }
-    return marks;
+    return following;
   }
 };
 

@@ -16,7 +16,6 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
-#include "grid/estimation/local_design.hpp"
 #include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/estimation/surface_correction.hpp"
@@ -75,10 +74,9 @@ class JointProblem {
     const auto mechanism = mechanism_at(state.settings);
     std::vector<ObservedFrom> from;
     for (const auto k : each_index(set_.parts)) {
-      const bool about_none =
-          is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
       from.push_back(
-          {{mechanism, sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
+          {{mechanism, sheet_at(state.settings, k),
+            is_about_surface(k) ? &corrections[k] : nullptr},
            state.settings(set_.columns_of(set_.parts[k]))});
     }
     const auto system = estimation::linearise(set_, from);
@@ -87,12 +85,9 @@ class JointProblem {
     for (const SystemPlace& place : system->places)
       marks.push_back(corrections[place.observation].to_surface(place.state.mark));
     observe(std::move(marks));
+    relate_values();
     fill_design(*system, state);
     eliminate_free_directions(*system, from, state);
-    local_.reset();
-    const bool many = design_.rows() > LocalDesign::kRowsForEachUnknown * unknowns_.total();
-    if (has_surface_ && many && free_.columns.empty())
-      local_.emplace(design_, units_, unknowns_, *observed_, basis_, surface_marks_);
     return {};
   }
 
@@ -129,13 +124,12 @@ class JointProblem {
   const ObservedSubspace* observed() const { return observed_ ? &*observed_ : nullptr; }
   /// Some places follow from the machine: they move with what is estimated.
   bool places_move() const { return places_move_; }
-  /// Units that may be rejected, and their whitened rows by all unknowns.
+  /// Units that may be rejected, readings that cannot be outliers, and the whitened rows of both by
+  /// all unknowns.
   const std::vector<SystemUnit>& units() const { return units_; }
+  const std::vector<SystemUnit>& certain() const { return certain_; }
   const MatrixXd& design() const { return design_; }
   const VectorXd& response() const { return response_; }
-  /// Rows of readings that cannot be outliers.
-  const MatrixXd& sure_design() const { return sure_design_; }
-  const VectorXd& sure_response() const { return sure_response_; }
   /// For a unit; none if the unit is an outlier as a whole.
   const Rows& rejected(std::size_t unit) const {
     static const Rows kNone;
@@ -149,42 +143,28 @@ class JointProblem {
     return as_double(rows) - fit.edf;
   }
 
-  /// The local design for many readings under a surface; null if the dense one is as fast.
-  const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
-  /// Marks of an observation's places, with a free sheet placed as its frame is defined.
-  const std::vector<MarkPoint>& marks(std::size_t observation) const {
-    return laid_marks_[observation];
-  }
+  /// Marks of each observation's places, with a free sheet placed as its frame is defined.
+  const std::vector<std::vector<MarkPoint>>& marks() const { return laid_marks_; }
 
-  /// All unknowns of a fit, including the free directions, and their covariance.
-  VectorXd coefficients(const interp::PenalisedFit& fit) const {
-    VectorXd all = fit.coefficients;
-    if (!free_.columns.empty()) {
-      const VectorXd free = free_.constant + free_.following * all;
-      all(free_.columns) = free;
-    }
-    return all;
+  /// All columns of the set of a fit, including the free directions, then the scales and the
+  /// coefficients of the splines; and their covariance, as far as the places observe the splines.
+  VectorXd values(const interp::PenalisedFit& fit) const {
+    return constant_ + to_values_ * fit.coefficients;
   }
   MatrixXd covariance(const interp::PenalisedFit& fit) const {
-    if (free_.columns.empty()) return fit.corrected_covariance;
-    MatrixXd follows = MatrixXd::Identity(unknowns_.total(), unknowns_.total());
-    follows(free_.columns, Eigen::all) = free_.following;
-    return linear::carried(follows, fit.corrected_covariance);
+    return linear::carried(to_values_, fit.corrected_covariance);
   }
+  /// Their order; a surface that there is not has zeros.
+  FitColumns columns() const { return {unknowns_.of_set, basis_.size()}; }
 
   /// The state that a fit of the problem leads to.
   State state_of(const interp::PenalisedFit& fit) const {
-    const VectorXd all = coefficients(fit);
+    const VectorXd all = values(fit);
     State state = stated();
     state.settings = all.head(set_.setting_columns());
     for (const Side side : kSides) {
-      if (unknowns_.scales == 0) break;
-      state.surface.scale[side] = all[unknowns_.scale(side)];
-      if (!has_surface_) continue;
-      state.surface.coefficients[side] =
-          observed_->polynomials * all.segment(unknowns_.polynomial(side), unknowns_.polynomials) +
-          observed_->penalised *
-              all.segment(unknowns_.first_penalised_of(side), unknowns_.penalised);
+      state.surface.scale[side] = all[columns().scale(side)];
+      state.surface.coefficients[side] = all.segment(columns().spline(side), basis_.size());
     }
     return state;
   }
@@ -217,6 +197,10 @@ class JointProblem {
   static bool is_linear_in_correction(const observation::Observation& observation) {
     return observation.places().empty() || observation.kind().reads_chains;
   }
+  /// An observation's rows are linearised about the state's surface.
+  bool is_about_surface(std::size_t observation) const {
+    return input_.fixed_weights || !is_linear_in_correction(*input_.observations[observation]);
+  }
 
   /// The part of the surface that the places observe; computed once if they are fixed.
   void observe(std::vector<MarkPoint> places) {
@@ -225,6 +209,22 @@ class JointProblem {
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
     unknowns_.polynomials = observed_->polynomials.cols();
     unknowns_.penalised = observed_->penalised.cols();
+  }
+
+  /// The values that the unknowns lead to, linear in these.
+  void relate_values() {
+    constant_ = VectorXd::Zero(columns().total());
+    to_values_ = MatrixXd::Zero(columns().total(), unknowns_.total());
+    const Index plain = unknowns_.of_set + unknowns_.scales;
+    to_values_.topLeftCorner(plain, plain).setIdentity();
+    for (const Side side : kSides) {
+      if (!has_surface_) break;
+      auto spline = to_values_.middleRows(columns().spline(side), basis_.size());
+      spline.middleCols(unknowns_.polynomial(side), unknowns_.polynomials) =
+          observed_->polynomials;
+      spline.middleCols(unknowns_.first_penalised_of(side), unknowns_.penalised) =
+          observed_->penalised;
+    }
   }
 
   /// e f + s at the state.
@@ -236,26 +236,14 @@ class JointProblem {
   }
 
   void fill_design(const LinearisedSystem& system, const State& state) {
-    MatrixXd design = MatrixXd::Zero(system.response.size(), unknowns_.total());
-    VectorXd response = system.response;
-    design.leftCols(unknowns_.of_set) = system.by_setting;
-    Rows rows;
-    Rows certain_rows;
-    const auto take = [&](const SystemUnit& unit, Rows& list) {
-      add_chain_columns(system, unit, state, design, response);
-      for (const Index i : each_below(unit.rows)) list.push_back(unit.first_row + i);
-    };
+    design_ = MatrixXd::Zero(system.response.size(), unknowns_.total());
+    design_.leftCols(unknowns_.of_set) = system.by_setting;
+    response_ = system.response;
     units_ = system.units;
-    for (SystemUnit& unit : units_) {
-      const auto first = std::ssize(rows);
-      take(unit, rows);
-      unit.first_row = first;
+    certain_ = system.certain;
+    for (const auto* units : {&units_, &certain_}) {
+      for (const SystemUnit& unit : *units) add_chain_columns(system, unit, state);
     }
-    for (const SystemUnit& unit : system.certain) take(unit, certain_rows);
-    design_ = design(rows, Eigen::all);
-    response_ = response(rows);
-    sure_design_ = design(certain_rows, Eigen::all);
-    sure_response_ = response(certain_rows);
   }
 
   /// Adds a chain's length and its surface at a place to rows, `by_chain` being their derivatives by
@@ -273,16 +261,16 @@ class JointProblem {
   }
 
   /// The scales' and the surface's columns of a unit.
-  void add_chain_columns(const LinearisedSystem& system, const SystemUnit& unit, const State& state,
-                         MatrixXd& design, VectorXd& response) const {
+  void add_chain_columns(const LinearisedSystem& system, const SystemUnit& unit,
+                         const State& state) {
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
       for (const Side side : kSides) {
         const VectorXd by_chain = place.by_chain.col(row_of(side));
-        add_chain(place.place, at, side, by_chain, design.middleRows(unit.first_row, unit.rows));
+        add_chain(place.place, at, side, by_chain, design_.middleRows(unit.first_row, unit.rows));
       }
-      if (!is_linear_in_correction(*input_.observations[unit.observation]) || input_.fixed_weights)
-        response.segment(unit.first_row, unit.rows) +=
+      if (is_about_surface(unit.observation))
+        response_.segment(unit.first_row, unit.rows) +=
             place.by_chain * correction_at(place.place, at, state);
     }
   }
@@ -306,7 +294,6 @@ class JointProblem {
 
   void eliminate_free_directions(const LinearisedSystem& system,
                                  const std::vector<ObservedFrom>& from, const State& state) {
-    free_ = {};
     laid_marks_.clear();
     for (const auto k : each_index(set_.parts)) {
       const ObservationPart& part = set_.parts[k];
@@ -333,13 +320,17 @@ class JointProblem {
             to_mark * (lengths(Eigen::all, set_.columns_of(part)) * from[k].settings +
                        correction_at(p, at, state));
       }
-      laid_marks_.push_back(free_.add(places));
+      if (const ColumnSet& free = places.free_columns; !free.empty()) {
+        const auto [constant, by_unknown] = places.lay();
+        constant_(free) = constant;
+        to_values_(free, Eigen::all) = by_unknown;
+        const MatrixXd by_free = design_(Eigen::all, free);
+        response_ -= by_free * constant;
+        design_(Eigen::all, free).setZero();
+        design_ += by_free * by_unknown;
+      }
+      laid_marks_.push_back(std::move(places.marks));
     }
-    if (free_.columns.empty()) return;
-    const MatrixXd by_free = design_(Eigen::all, free_.columns);
-    response_ -= by_free * free_.constant;
-    design_ += by_free * free_.following;
-    design_(Eigen::all, free_.columns).setZero();
   }
 
   const EstimationInput& input_;
@@ -352,13 +343,11 @@ class JointProblem {
   std::optional<ObservedSubspace> observed_;
   std::vector<MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
   std::vector<std::vector<MarkPoint>> laid_marks_;
-  std::vector<SystemUnit> units_;
+  std::vector<SystemUnit> units_, certain_;
   MatrixXd design_;
   VectorXd response_;
-  std::optional<LocalDesign> local_;
-  MatrixXd sure_design_;
-  VectorXd sure_response_;
-  FreeDirections free_;
+  VectorXd constant_;  ///< of the values, and their derivative by the unknowns
+  MatrixXd to_values_;
 };
 
 }  // namespace chaintrue::grid::estimation

@@ -12,8 +12,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "grid/containers.hpp"
@@ -26,107 +24,43 @@ namespace chaintrue::grid::estimation {
 /// A fit of a problem with these weights. All must outlive this.
 class LeftOut {
  public:
-  /// `groups`: those of residuals() are left out too.
-  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights,
-          bool groups = false)
+  LeftOut(const JointProblem& problem, const interp::PenalisedFit& fit, const VectorXd& weights)
       : problem_(problem),
         fit_(fit),
         weights_(weights),
         residuals_(problem.response() - problem.design() * fit.coefficients) {
-    if (problem.local() != nullptr) spreads_ = problem.local()->spreads(fit.covariance);
-    if (problem.local() != nullptr && !groups) return;
     const linear::Cholesky factor(fit.covariance);
     // Positive up to rounding.
     by_root_ = linear::product(problem.design(), factor.is_positive_definite()
                                                      ? factor.lower()
                                                      : linear::covariance_root(fit.covariance));
+    root_ = VectorXd::Zero(residuals_.size());
+    for (const auto u : each_index(problem.units())) {
+      const SystemUnit& unit = problem.units()[u];
+      root_.segment(unit.first_row, unit.rows).setConstant(std::sqrt(weights[as_index(u)]));
+    }
   }
 
   struct Conditioned {
     VectorXd residual;
     MatrixXd covariance;
   };
-  /// Residual and covariance of a unit. If the unit nearly determines its own prediction, I - w X C
-  /// X' / s^2 is rounding: the rest is then fitted again with the smoothing of the whole.
+  /// Residual and covariance of a unit.
   Conditioned conditioned(std::size_t unit) const {
-    const auto at = as_index(unit);
-    const bool by_formula =
-        weights_[at] == 0.0 ||
-        interp::held_out_residual(residual_of(unit), weights_[at] * spread_of(unit), fit_.sigma2);
-    if (!by_formula) {
-      if (const auto rest = fit_without({unit})) {
-        const MatrixXd rows = rows_of(unit);
-        Conditioned conditioned{response_of(unit) - rows * rest->coefficients,
-                                linear::carried(rows, rest->covariance)};
-        conditioned.covariance.diagonal().array() += fit_.sigma2;
-        return conditioned;
-      }
-    }
-    return {residual(unit), covariance(unit)};
+    const Rows rows = rows_of({unit});
+    if (auto held = held_out({unit})) return {*std::move(held), covariance(unit)};
+    const auto rest = fit_without({unit});
+    if (!rest) return {residuals_(rows), covariance(unit)};
+    MatrixXd spread = linear::carried(problem_.design()(rows, Eigen::all), rest->covariance);
+    spread.diagonal().array() += fit_.sigma2;
+    return {against(*rest, rows), std::move(spread)};
   }
 
-  /// The whitened left-out residual of a unit. Rejected readings are not in the fit.
-  VectorXd residual(std::size_t unit) const {
-    const double weight = weights_[as_index(unit)];
-    VectorXd residual = residual_of(unit);
-    if (weight == 0.0) return residual;
-    const auto held = interp::held_out_residual(residual, weight * spread_of(unit), fit_.sigma2);
-    return held ? *held : residual;
-  }
-
-  /// Residuals of a group of units, all left out together.
-  std::vector<VectorXd> residuals(const UnitGroup& group) const {
-    Rows rows;
-    std::vector<double> roots;
-    for (const std::size_t unit : group) {
-      const double weight = weights_[as_index(unit)];
-      if (weight == 0.0) continue;
-      const SystemUnit& own = problem_.units()[unit];
-      for (const Index i : each_below(own.rows)) {
-        rows.push_back(own.first_row + i);
-        roots.push_back(std::sqrt(weight));
-      }
-    }
-    std::vector<VectorXd> residuals;
-    if (rows.empty()) {
-      for (const std::size_t unit : group) residuals.push_back(residual_of(unit));
-      return residuals;
-    }
-    const Eigen::Map<const VectorXd> root(roots.data(), std::ssize(roots));
-    const auto held = interp::held_out_residual(
-        root.cwiseProduct(residuals_(rows)),
-        linear::outer(root.asDiagonal() * by_root_(rows, Eigen::all)), fit_.sigma2);
-    if (!held) {
-      if (const auto rest = fit_without(group)) {
-        for (const std::size_t unit : group)
-          residuals.push_back(response_of(unit) - rows_of(unit) * rest->coefficients);
-        return residuals;
-      }
-    }
-    Index at = 0;
-    for (const std::size_t unit : group) {
-      const double weight = weights_[as_index(unit)];
-      if (held && weight > 0.0) {
-        const Index own = problem_.units()[unit].rows;
-        residuals.emplace_back(held->segment(at, own) / std::sqrt(weight));
-        at += own;
-      } else {
-        residuals.push_back(residual_of(unit));
-      }
-    }
-    return residuals;
-  }
-
-  /// (1), whitened, the unit's noise at its full weight.
-  MatrixXd covariance(std::size_t unit) const {
-    const double weight = weights_[as_index(unit)];
-    MatrixXd spread = spread_of(unit);
-    const MatrixXd noise = fit_.sigma2 * MatrixXd::Identity(spread.rows(), spread.rows());
-    if (weight > 0.0) {
-      const linear::Cholesky kept(noise - weight * spread);
-      if (kept.is_positive_definite()) spread = fit_.sigma2 * kept.solve(spread);
-    }
-    return noise + spread;
+  /// Residuals of a group of units, unit by unit, all left out together.
+  VectorXd residuals(const UnitGroup& group) const {
+    if (auto held = held_out(group)) return *std::move(held);
+    const auto rest = fit_without(group);
+    return rest ? against(*rest, rows_of(group)) : VectorXd(residuals_(rows_of(group)));
   }
 
   /// Residual of a unit in the fit itself, with nothing left out.
@@ -134,42 +68,59 @@ class LeftOut {
     return problem_.units()[unit].segment(residuals_);
   }
   double distance(std::size_t unit) const {
-    const VectorXd residual = this->residual(unit);
+    const VectorXd residual = held_out({unit}).value_or(residual_of(unit));
     return std::sqrt(residual.dot(linear::PivotedCholesky(covariance(unit)).solve(residual)));
   }
 
  private:
-  MatrixXd rows_of(std::size_t unit) const {
-    const SystemUnit& own = problem_.units()[unit];
-    return problem_.design().middleRows(own.first_row, own.rows);
+  Rows rows_of(const UnitGroup& group) const {
+    Rows rows;
+    for (const std::size_t unit : group) {
+      const SystemUnit& own = problem_.units()[unit];
+      for (const Index i : each_below(own.rows)) rows.push_back(own.first_row + i);
+    }
+    return rows;
   }
 
-  /// The fit of the rest, with the smoothing of the whole; empty if there is none.
-  std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const {
+  /// r_out of (1); for units that do not count, r. Fails where the rows nearly determine their own
+  /// prediction: then I - w X C X' / s^2 is rounding.
+  tl::expected<VectorXd, interp::FitFailure> held_out(const UnitGroup& group) const {
+    const Rows rows = rows_of(group);
+    const VectorXd root = root_(rows), residual = residuals_(rows);
+    return interp::held_out_residual(root.cwiseProduct(residual),
+                                     linear::outer(root.asDiagonal() * by_root_(rows, Eigen::all)),
+                                     fit_.sigma2)
+        .map([&](const VectorXd& held) -> VectorXd {
+          return (root.array() > 0.0).select(held.cwiseQuotient(root), residual);
+        });
+  }
+
+  /// (1), whitened, the unit's noise at its full weight.
+  MatrixXd covariance(std::size_t unit) const {
+    const double weight = weights_[as_index(unit)];
+    MatrixXd spread = linear::outer(by_root_(rows_of({unit}), Eigen::all));
+    const MatrixXd noise = fit_.sigma2 * MatrixXd::Identity(spread.rows(), spread.rows());
+    const linear::Cholesky kept(noise - weight * spread);
+    if (kept.is_positive_definite()) spread = fit_.sigma2 * kept.solve(spread);
+    return noise + spread;
+  }
+
+  /// The fit of the rest, with the smoothing of the whole.
+  tl::expected<interp::PenalisedFit, interp::FitFailure> fit_without(const UnitGroup& group) const {
     VectorXd without = weights_;
     for (const std::size_t unit : group) without[as_index(unit)] = 0.0;
-    auto rest = interp::fit_with_smoothing(weighted(problem_, without), fit_.lambda, fit_.sigma2);
-    return rest ? std::optional(*std::move(rest)) : std::nullopt;
+    return interp::fit_with_smoothing(weighted(problem_, without), fit_.lambda, fit_.sigma2);
   }
-
-  /// X C X'.
-  MatrixXd spread_of(std::size_t unit) const {
-    if (!spreads_.empty()) return spreads_[unit];
-    const SystemUnit& own = problem_.units()[unit];
-    const auto root = by_root_.middleRows(own.first_row, own.rows);
-    return root.lazyProduct(root.transpose());
-  }
-
-  VectorXd response_of(std::size_t unit) const {
-    return problem_.units()[unit].segment(problem_.response());
+  VectorXd against(const interp::PenalisedFit& rest, const Rows& rows) const {
+    return problem_.response()(rows) - problem_.design()(rows, Eigen::all) * rest.coefficients;
   }
 
   const JointProblem& problem_;
   const interp::PenalisedFit& fit_;
   const VectorXd& weights_;
-  VectorXd residuals_;             ///< of all rows
-  std::vector<MatrixXd> spreads_;  ///< X C X' of each unit, where the design is local
-  MatrixXd by_root_;               ///< X R of all units, C = R R'
+  VectorXd residuals_;  ///< of all rows
+  VectorXd root_;       ///< of their units' weights
+  MatrixXd by_root_;    ///< X R of all units, C = R R'
 };
 
 /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:

@@ -30,13 +30,12 @@ void add_units(const ObservationSet& set, std::size_t number, const Linearisatio
     const auto there = Eigen::seqN(rows.first_row, rows.rows);
     const VectorXd residual = observation.measured()(there) - predicted(there);
     const MatrixXd by_setting = line.by_setting(there, Eigen::all);
-    SystemUnit unit;
-    unit.observation = number;
-    unit.unit = u;
-    unit.first_row = part.first_row + rows.first_row;
-    unit.rows = rows.rows;
-    unit.whitening = unit_whitening(line.units[u].covariance);
-    unit.reads_chains = part.reads_chains();
+    SystemUnit unit{number,
+                    u,
+                    part.first_row + rows.first_row,
+                    rows.rows,
+                    unit_whitening(line.units[u].covariance),
+                    part.reads_chains()};
     const MatrixXd& w = unit.whitening;
     const auto own = Eigen::seqN(unit.first_row, unit.rows);
     system.e(own) = w * residual;

@@ -30,18 +30,12 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis, int bendin
   const MatrixXd penalty = basis.bending_penalty(bending_order);
   penalty_trace = penalty.trace();
   const MatrixXd root = bending_root(penalty, polynomials);
-  penalised_rows = MatrixXd::Zero(points, size);
-  polynomial_rows = MatrixXd::Zero(points, polynomials.cols());
-  squares = VectorXd::Zero(points);
-  for (const Index i : each_below(points)) {
-    const MarkPoint mark = marks[as_size(i)];
-    const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
-    for (const auto k : each_index(support.index)) {
-      penalised_rows.row(i) += support.value[k] * root.row(support.index[k]);
-      polynomial_rows.row(i) += support.value[k] * polynomials.row(support.index[k]);
-      squares[i] += support.value[k] * support.value[k];
-    }
-  }
+  MatrixXd rows(points, size);  // phi
+  for (const Index i : each_below(points))
+    rows.row(i) = basis.row(marks[as_size(i)].x_mm, marks[as_size(i)].y_mm);
+  penalised_rows = linear::product(rows, root);
+  polynomial_rows = linear::product(rows, polynomials);
+  squares = rows.rowwise().squaredNorm();
   if (points >= size) {
     penalised = root;
     null_space.resize(size, 0);

@@ -3,6 +3,8 @@
 
 #include <tuple>
 
+#include "grid/plane_vectors.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -22,16 +24,16 @@ std::vector<Indices> cut(const Indices& order, std::size_t parts) {
 
 std::vector<Indices> spatial_blocks(const std::vector<LengthPoint>& points) {
   auto order = numbers_below(points.size());
-  const auto by_x = [&](std::size_t i) {
-    return std::tuple(points[i].mark.x_mm, points[i].mark.y_mm, points[i].lengths.left_mm);
+  const auto along = [&](Index axis) {
+    return ascending([&points, axis](std::size_t i) {
+      const Vector2d at = vector_of(points[i].mark);
+      return std::tuple(at[axis], at[1 - axis], points[i].lengths.left_mm);
+    });
   };
-  const auto by_y = [&](std::size_t i) {
-    return std::tuple(points[i].mark.y_mm, points[i].mark.x_mm, points[i].lengths.left_mm);
-  };
-  sort(order, ascending(by_x));
+  sort(order, along(0));
   std::vector<Indices> blocks;
   for (auto& column : cut(order, 4)) {
-    sort(column, ascending(by_y));
+    sort(column, along(1));
     for (auto& block : cut(column, 2)) {
       sort(block);
       blocks.push_back(std::move(block));

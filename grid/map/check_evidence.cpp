@@ -15,88 +15,22 @@
 namespace chaintrue::grid {
 namespace {
 
-using QuantityKind = model::ChangedQuantity::Kind;
-
-/// A hypothesis before fitting.
-struct Proposal {
-  CheckHypothesis hypothesis;
-  double prior = 0.0;
-  VectorXd mean;   ///< of r; empty: nothing
-  MatrixXd by_q;   ///< X
-  VectorXd sigma;  ///< of q
-  /// Which of the hypothesis' quantities each q is.
-  Indices quantity_of_q;
-  std::size_t unit = 0;  ///< of a bad point
-};
+using Quantity = model::ChangedQuantity;
 
 /// The effect of a unit of a quantity on the residuals.
-VectorXd column_of(const CheckReadings& readings, const model::ChangedQuantity& quantity) {
-  if (quantity.kind == QuantityKind::parameter)
+VectorXd column_of(const CheckReadings& readings, const Quantity& quantity) {
+  if (quantity.kind == Quantity::Kind::parameter)
     return readings.by_parameter.col(as_index(quantity.parameter));
   VectorXd added = VectorXd::Zero(readings.lengths_mm.size());
   for (const std::size_t length : quantity.lengths) {
     for (auto i = as_index(length); i < added.size(); i += as_index(readings.lengths))
-      added[i] = quantity.kind == QuantityKind::elongation ? -readings.lengths_mm[i] : 1.0;
+      added[i] = quantity.kind == Quantity::Kind::elongation ? -readings.lengths_mm[i] : 1.0;
   }
   return readings.by_length * added;
 }
 
-Proposal proposal_of(const CheckReadings& readings, const model::MechanismChange& change) {
-  Proposal proposal;
-  proposal.prior = change.prior;
-  CheckHypothesis& hypothesis = proposal.hypothesis;
-  hypothesis.what = change.what;
-  hypothesis.side = change.side;
-  hypothesis.verdict =
-      change.zero_mends ? CheckVerdict::valid_after_rezeroing : CheckVerdict::measure_again;
-  hypothesis.count = change.count;
-  for (const model::ChangedQuantity& quantity : change.quantities) {
-    hypothesis.found.push_back({quantity, quantity.mean, 0.0});
-    const VectorXd column = column_of(readings, quantity);
-    if (quantity.mean != 0.0) {
-      if (proposal.mean.size() == 0) proposal.mean = VectorXd::Zero(column.size());
-      proposal.mean += quantity.mean * column;
-    }
-    if (quantity.sigma == 0.0) continue;
-    const Index at = proposal.by_q.cols();
-    proposal.by_q.conservativeResize(column.size(), at + 1);
-    proposal.by_q.col(at) = column;
-    proposal.sigma.conservativeResize(at + 1);
-    proposal.sigma[at] = quantity.sigma;
-    proposal.quantity_of_q.push_back(hypothesis.found.size() - 1);
-  }
-  return proposal;
-}
-
-Proposal plain(model::Change what, CheckVerdict verdict, double prior) {
-  Proposal proposal;
-  proposal.hypothesis.what = what;
-  proposal.hypothesis.verdict = verdict;
-  proposal.prior = prior;
-  return proposal;
-}
-
-/// All hypotheses for these readings.
-std::vector<Proposal> proposals_of(const CheckReadings& readings) {
-  const model::ChangePriors& prior = model::kChangePriors;
-  std::vector<Proposal> all;
-  all.push_back(plain(model::Change::nothing, CheckVerdict::valid, prior.nothing));
-  for (const model::MechanismChange& change : readings.changes)
-    all.push_back(proposal_of(readings, change));
-  all.push_back(plain(model::Change::unknown, CheckVerdict::measure_again, prior.unknown));
-  for (const auto u : each_index(readings.units)) {
-    const CheckUnit& unit = readings.units[u];
-    Proposal& bad = all.emplace_back(plain(model::Change::bad_point, CheckVerdict::measure_again,
-                                           prior.bad_point / as_double(readings.units.size())));
-    bad.hypothesis.count = as_int(unit.index);
-    bad.hypothesis.name = unit.name;
-    bad.unit = u;
-  }
-  return all;
-}
-
-/// log of evidence times prior of each proposal, K being factored once. A hypothesis adds a few
-/// directions U, or removes one unit's information:
+/// log of the evidence of hypotheses, K being factored once. A hypothesis adds a few directions U, or
+/// removes one unit's information:
 ///   x' (K + U U')^-1 x = x' K^-1 x - x' K^-1 U M^-1 U' K^-1 x,  |K + U U'| = |K| |M|,
 ///   M = I + U' K^-1 U     (W)
 class Evidence {
@@ -107,24 +41,6 @@ class Evidence {
         residual_(nothing_.conditioned(readings.residual_mm)),
         pulled_(nothing_.pulled(residual_)),
         precision_(nothing_.precision_of_units()) {}
-
-  /// Stores the posterior of q.
-  double weigh(Proposal& proposal) const {
-    const model::Change what = proposal.hypothesis.what;
-    return std::log(proposal.prior) + (what == model::Change::unknown ? of_unknown()
-                                       : what == model::Change::bad_point
-                                           ? of_bad_unit(proposal.unit)
-                                           : of_change(proposal));
-  }
-
- private:
-  /// The log evidence (2) or (3), from log|V|^1/2 and r' V^-1 r.
-  double log_density(double log_root, double square) const {
-    const double nu = readings_.noise_dof;
-    if (!std::isfinite(nu)) return -log_root - 0.5 * square;
-    const auto n = as_double(readings_.residual_mm.size());
-    return -log_root - 0.5 * (n + nu) * std::log1p(square / nu);
-  }
 
   /// Every place may have changed independently, by kUnknownSigmaMm in each length.
   double of_unknown() const {
@@ -147,35 +63,43 @@ class Evidence {
                        residual_.squaredNorm() - conditioned.dot(factor.solve(conditioned)));
   }
 
-  double of_change(Proposal& proposal) const {
-    const VectorXd y = proposal.mean.size() == 0
-                           ? residual_
-                           : VectorXd(residual_ - nothing_.conditioned(proposal.mean));
-    if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
-    const MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
+  /// Quantities have changed; stores their posterior.
+  double of_change(std::vector<QuantityFound>& quantities) const {
+    const auto count = std::ssize(quantities);
+    MatrixXd by_q(readings_.residual_mm.size(), count);
+    VectorXd mean(count), sigma(count);
+    for (const Index k : each_below(count)) {
+      const Quantity& quantity = quantities[as_size(k)].of;
+      by_q.col(k) = column_of(readings_, quantity);
+      mean[k] = quantity.mean;
+      sigma[k] = quantity.sigma;
+    }
+    const VectorXd y = residual_ - nothing_.conditioned(by_q * mean);
+    const MatrixXd u = nothing_.conditioned(by_q * sigma.asDiagonal());
     const linear::Cholesky factor(linear::one_plus_gram(u));
     const VectorXd by_y = linear::inner(u, y);
     const VectorXd taken = factor.solve(by_y);
-    const double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
-                                     y.squaredNorm() - by_y.dot(taken));
-    const VectorXd q = proposal.sigma.cwiseProduct(taken);
-    const MatrixXd covariance =
-        proposal.sigma.asDiagonal() * factor.inverse() * proposal.sigma.asDiagonal();
-    return value + take_posterior(proposal, q, covariance);
+    double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
+                               y.squaredNorm() - by_y.dot(taken));
+    const MatrixXd covariance = factor.inverse();
+    for (const Index k : each_below(count)) {
+      QuantityFound& found = quantities[as_size(k)];
+      const double q = sigma[k] * taken[k];
+      found.value = mean[k] + q;
+      found.sigma = sigma[k] * std::sqrt(covariance(k, k));
+      if (found.of.only_grows)
+        value += std::log(std::max(1e-300, 2.0 * normal_upper(-q / found.sigma)));
+    }
+    return value;
   }
 
-  /// Fills the hypothesis; returns the addition to the evidence for a quantity that can only grow.
-  static double take_posterior(Proposal& proposal, const VectorXd& q, const MatrixXd& covariance) {
-    double added = 0.0;
-    for (const auto k : each_index(proposal.quantity_of_q)) {
-      const auto at = as_index(k);
-      QuantityFound& found = proposal.hypothesis.found[proposal.quantity_of_q[k]];
-      found.value += q[at];
-      found.sigma = std::sqrt(covariance(at, at));
-      if (found.of.only_grows)
-        added += std::log(std::max(1e-300, 2.0 * normal_upper(-q[at] / found.sigma)));
-    }
-    return added;
+ private:
+  /// The log evidence (2) or (3), from log|V|^1/2 and r' V^-1 r.
+  double log_density(double log_root, double square) const {
+    const double nu = readings_.noise_dof;
+    if (!std::isfinite(nu)) return -log_root - 0.5 * square;
+    const auto n = as_double(readings_.residual_mm.size());
+    return -log_root - 0.5 * (n + nu) * std::log1p(square / nu);
   }
 
   const CheckReadings& readings_;
@@ -188,22 +112,38 @@ class Evidence {
 }  // namespace
 
 std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings) {
-  std::vector<Proposal> proposals = proposals_of(readings);
-  std::vector<double> weights;
   const Evidence evidence(readings);
-  for (Proposal& proposal : proposals) weights.push_back(evidence.weigh(proposal));
-  const double of_all = log_sum(weights);
+  const model::ChangePriors& prior = model::kChangePriors;
   std::vector<CheckHypothesis> hypotheses;
-  for (std::size_t i = 0; i < proposals.size(); ++i) {
-    proposals[i].hypothesis.probability = std::exp(weights[i] - of_all);
-    hypotheses.push_back(std::move(proposals[i].hypothesis));
+  std::vector<double> weights;
+  const auto add = [&](CheckHypothesis hypothesis, double own_prior, double log_evidence) {
+    hypotheses.push_back(std::move(hypothesis));
+    weights.push_back(std::log(own_prior) + log_evidence);
+  };
+  std::vector<QuantityFound> none;
+  add({Change::nothing, {}}, prior.nothing, evidence.of_change(none));
+  for (const model::MechanismChange& change : readings.changes) {
+    std::vector<QuantityFound> found;
+    for (const Quantity& quantity : change.quantities) found.push_back({quantity});
+    const double own = evidence.of_change(found);
+    const CheckVerdict verdict =
+        change.zero_mends ? CheckVerdict::valid_after_rezeroing : CheckVerdict::measure_again;
+    add({change.what, change.side, verdict, 0.0, change.count, {}, std::move(found)}, change.prior,
+        own);
   }
+  add({Change::unknown, {}, CheckVerdict::measure_again}, prior.unknown, evidence.of_unknown());
+  for (const auto u : each_index(readings.units)) {
+    const CheckUnit& unit = readings.units[u];
+    add({Change::bad_point, {}, CheckVerdict::measure_again, 0.0, as_int(unit.index), unit.name},
+        prior.bad_point / as_double(readings.units.size()), evidence.of_bad_unit(u));
+  }
+  const double of_all = log_sum(weights);
+  for (const auto i : each_index(hypotheses))
+    hypotheses[i].probability = std::exp(weights[i] - of_all);
   return hypotheses;
 }
 
 namespace {
-
-using Quantity = model::ChangedQuantity;
 
 /// Probabilities of the verdicts, the likeliest of these, and the hypotheses likeliest first.
 void decide(Check& check) {
@@ -220,16 +160,16 @@ void decide(Check& check) {
 }
 
 std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
-  if (h.what == model::Change::nothing) return "nothing has changed";
-  if (h.what == model::Change::bad_point) return fmt::format("only {} is wrong", h.name);
-  if (h.what == model::Change::unknown) return "something has changed that has no known pattern";
+  if (h.what == Change::nothing) return "nothing has changed";
+  if (h.what == Change::bad_point) return fmt::format("only {} is wrong", h.name);
+  if (h.what == Change::unknown) return "something has changed that has no known pattern";
   return words.change(h);
 }
 
 std::string sentence_of(const Check& check, const CheckWords& words) {
   const CheckHypothesis& first = check.hypotheses.front();
   const double percent = 100.0 * check.probability[as_size(check.verdict)];
-  if (first.what == model::Change::bad_point) {
+  if (first.what == Change::bad_point) {
     return fmt::format(
         "Measure {} again ({:.0f} %): only this reading is wrong, and it does not show whether {} "
         "is valid.",
@@ -280,8 +220,7 @@ double rms_over(const CheckUnit& unit, const std::vector<CheckResidual>& residua
 }  // namespace
 
 std::string_view name(CheckVerdict verdict) {
-  constexpr std::string_view kNames[] = {"valid", "valid_after_rezeroing", "measure_again"};
-  return kNames[as_size(verdict)];
+  return word_of(verdict, {"valid", "valid_after_rezeroing", "measure_again"});
 }
 
 QuantityFound CheckHypothesis::added(std::size_t length) const {

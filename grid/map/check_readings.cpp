@@ -207,8 +207,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
 /// The map at N places of new readings: d(lengths)/d(mark), and the uncertainty of its lengths, one
 /// sigma a column, jointly or place by place.
 struct MapAt {
-  std::vector<ChainLengths> lengths;
-  std::vector<Matrix2d> by_mark;
+  std::vector<MapLengths> here;
   MatrixXd factor;                  ///< F, 2 N x any
   Eigen::SparseMatrix<double> own;  ///< of each place by itself where F has none, 2 N x 2 N
   /// 2 N x p, by the settings of the machine; no columns for a map without one.
@@ -224,8 +223,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's uncertainty is not linear in the unknowns, so its points are used directly.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  constexpr auto& kOfMachine = kMachineSettings;
-  at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
+  at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kMachineSettings) : 0);
   at.factor.resize(2 * count, is_joint ? surface->covariance_factor.cols() : 0);
   at.own.resize(2 * count, 2 * count);
   std::optional<ReadingModel> model;
@@ -239,8 +237,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
       return failed(Reason::unreachable, fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm,
                                                      found.error().sentence()));
     }
-    at.lengths.push_back(found->here.lengths);
-    at.by_mark.push_back(found->here.mark_jacobian);
+    at.here.push_back(found->here);
     if (is_joint) {
       // The rest is what the map's own continuation changes.
       at.factor.middleRows<2>(2 * i) = found->spread_mm.leftCols(at.factor.cols());
@@ -254,9 +251,18 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
     if (surface == nullptr) continue;
     at.by_parameter.middleRows<2>(2 * i) = observation::lengths_by_setting(
         {*model, surface->sheet}, model->at(surface->sheet.to_bed(mark)).value(), mark,
-        {kOfMachine.begin(), kOfMachine.end()});
+        {kMachineSettings.begin(), kMachineSettings.end()});
   }
   return at;
+}
+
+/// Adds the numbers of a block that are not zero.
+void add_block(const MatrixXd& block, Index row, Index column, Entries& entries) {
+  for (const Index j : each_below(block.cols())) {
+    for (const Index i : each_below(block.rows())) {
+      if (block(i, j) != 0.0) entries.emplace_back(row + i, column + j, block(i, j));
+    }
+  }
 }
 
 /// The readings of all parts, row by row. What is sparse is gathered as entries.
@@ -267,29 +273,28 @@ class Gathered {
   /// `first` is where the part's places begin among all; `of` distinguishes several files: "", or
   /// " of holes.json".
   void add(const CheckedPart& part, std::size_t first, const std::string& of) {
-    if (part.distances) {
-      add_distances(part, first, of);
-    } else {
-      add_points(part, first, of);
-    }
+    const Index before = row();
+    const MatrixXd by_sheet =
+        part.distances ? add_distances(part, first, of) : add_points(part, first, of);
+    if (part.sheet) gather(by_sheet * part.sheet->sigma().asDiagonal(), before);
   }
 
   CheckReadings readings() && {
     const auto rows = std::ssize(residual_mm_);
-    const auto places = std::ssize(at_.lengths);
+    const auto places = std::ssize(at_.here);
     readings_.residual_mm = Eigen::Map<const VectorXd>(residual_mm_.data(), rows);
     readings_.by_length.resize(rows, 2 * places);
     readings_.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
     ReadingCovariance& covariance = readings_.covariance;
     covariance.of_map = narrowed(readings_.by_length * at_.factor);
-    Eigen::SparseMatrix<double> errors(rows, errors_.empty() ? 0 : errors_.back().col() + 1);
+    Eigen::SparseMatrix<double> errors(rows, error_columns_);
     errors.setFromTriplets(errors_.begin(), errors_.end());
     add_errors(errors, covariance);
     add_errors(readings_.by_length * at_.own, covariance);
     readings_.by_parameter = readings_.by_length * at_.by_parameter;
     readings_.lengths_mm.resize(2 * places);
     for (const Index i : each_below(places))
-      readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.lengths[as_size(i)]);
+      readings_.lengths_mm.segment<2>(2 * i) = vector_of(at_.here[as_size(i)].lengths);
     return std::move(readings_);
   }
 
@@ -304,75 +309,57 @@ class Gathered {
     readings_.covariance.own.push_back(std::move(covariance));
   }
 
-  void add_points(const CheckedPart& part, std::size_t first, const std::string& of) {
-    const Index before = row();
+  /// Independent errors of the rows from one on, one sigma a column.
+  void gather(const MatrixXd& by_error, Index first_row) {
+    add_block(by_error, first_row, error_columns_, errors_);
+    error_columns_ += by_error.cols();
+  }
+
+  // Both return the derivatives of their rows by the sheet's placement.
+
+  MatrixXd add_points(const CheckedPart& part, std::size_t first, const std::string& of) {
     const Vector3d laid(part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
-    Eigen::MatrixX3d by_sheet(2 * std::ssize(part.points), 3);
+    MatrixXd by_sheet(2 * std::ssize(part.points), 3);
     for (const auto i : each_index(part.points)) {
       const LengthPoint& point = part.points[i].point;
-      const Matrix2d& by_mark = at_.by_mark[first + i];
-      const auto chain = 2 * as_index(first + i);
-      for (Index side = 0; side < 2; ++side)
-        by_length_.emplace_back(row() + side, chain + side, 1.0);
-      Vector2d residual = difference(point.lengths, at_.lengths[first + i]);
-      if (part.sheet) {
-        auto by_own_sheet = by_sheet.middleRows<2>(2 * as_index(i));
-        by_own_sheet = by_mark * part.placement.sensitivity(point.mark);
-        residual += by_own_sheet * laid;
-      }
+      const auto& [lengths, by_mark] = at_.here[first + i];
+      auto by_own_sheet = by_sheet.middleRows<2>(2 * as_index(i));
+      by_own_sheet = by_mark * part.placement.sensitivity(point.mark);
+      const Vector2d residual = difference(point.lengths, lengths) + by_own_sheet * laid;
+      add_block(Matrix2d::Identity(), row(), 2 * as_index(first + i), by_length_);
       append_all(residual_mm_, residual);
       const std::string name = fmt::format("point {}{}", point.index + 1, of);
       for (const char* side : {"left", "right"})
         readings_.names.push_back(fmt::format("{}, {} chain", name, side));
       add_unit(name, noise_at(part, part.points[i], by_mark));
     }
-    if (part.sheet) gather(by_sheet * part.sheet->sigma().asDiagonal(), before);
+    return by_sheet;
   }
 
-  /// Independent errors of the rows from one on, one sigma a column.
-  void gather(const MatrixXd& by_error, Index first_row) {
-    const Index first = errors_.empty() ? 0 : errors_.back().col() + 1;
-    for (const Index column : each_below(by_error.cols())) {
-      for (const Index i : each_below(by_error.rows())) {
-        if (by_error(i, column) != 0.0)
-          errors_.emplace_back(first_row + i, first + column, by_error(i, column));
-      }
-    }
-  }
-
-  void add_distances(const CheckedPart& part, std::size_t first, const std::string& of) {
+  MatrixXd add_distances(const CheckedPart& part, std::size_t first, const std::string& of) {
     const MeasuredHoles& set = part.distances->set();
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
-    const VectorXd residual = part.distances->measured() - geometry.predicted_mm;
-    const Index before = row(), count = residual.size();
-    append_all(residual_mm_, residual);
-    Eigen::MatrixX3d by_sheet = Eigen::MatrixX3d::Zero(count, 3);
-    for (const Index k : each_below(count)) {
-      const HoleDistance& distance = set.distances[as_size(k)];
+    const Index before = row(), count = geometry.by_mark.rows();
+    append_all(residual_mm_, VectorXd(part.distances->measured() - geometry.predicted_mm));
+    for (const HoleDistance& distance : set.distances) {
       readings_.names.push_back(words_of(set, distance) + of);
       add_unit(readings_.names.back(),
                MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
-      Indices ends = {distance.from};
-      if (!distance.edge) ends.push_back(distance.to);
-      for (const std::size_t hole : ends) {
-        const auto column = 2 * as_index(hole);
-        // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
-        const RowVector2d by_length =
-            -geometry.by_mark.block<1, 2>(k, column) * at_.by_mark[first + hole].inverse();
-        for (const Index axis : {0, 1})
-          by_length_.emplace_back(before + k, 2 * as_index(first) + column + axis, by_length[axis]);
-      }
-      // If a sheet moves, a hole's mark on it moves the other way; distances to edges depend on it,
-      // with the rotation to first order.
-      if (distance.edge) {
-        by_sheet.row(k) = -geometry.by_mark.block<1, 2>(k, 2 * as_index(distance.from)) *
-                          SheetPlacement{}.sensitivity(part.marks[distance.from]);
-      }
+    }
+    // If a sheet moves, a hole's mark on it moves the other way.
+    MatrixXd by_sheet = MatrixXd::Zero(count, 3);
+    for (const auto hole : each_index(part.marks)) {
+      const auto column = 2 * as_index(hole);
+      const auto by_mark = geometry.by_mark.middleCols<2>(column);
+      // A chain reads more than the map predicts for the place: the tool is nearer to that motor.
+      add_block(-by_mark * at_.here[first + hole].mark_jacobian.inverse(), before,
+                2 * as_index(first) + column, by_length_);
+      by_sheet -= by_mark * SheetPlacement{}.sensitivity(part.marks[hole]);
     }
     gather(set.hole_sigma_mm * geometry.by_mark, before);
     gather(set.sheet.size_sigma_mm * geometry.by_size, before);
     gather(VectorXd::Constant(count, tape_zero_sigma_mm(set.tape)), before);
-    if (part.sheet) gather(by_sheet * part.sheet->sigma().asDiagonal(), before);
+    return by_sheet;
   }
 
   const MapAt& at_;
@@ -380,6 +367,7 @@ class Gathered {
   std::vector<double> residual_mm_;
   Entries by_length_;
   Entries errors_;
+  Index error_columns_ = 0;
 };
 
 }  // namespace

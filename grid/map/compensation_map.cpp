@@ -12,8 +12,7 @@
 namespace chaintrue::grid {
 
 std::string_view name(NoiseSource source) {
-  constexpr std::string_view kNames[] = {"stated", "repeats", "fit", "assumed"};
-  return kNames[as_size(source)];
+  return word_of(source, {"stated", "repeats", "fit", "assumed"});
 }
 
 MapFailure unreachable(const model::MechanismFailure& why) {

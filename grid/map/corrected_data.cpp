@@ -32,12 +32,10 @@ Machine with_effects_that(Machine machine, Keep keep) {
 }
 
 std::string names_of(const Machine& machine) {
-  std::string names;
-  for (const AppliedEffect& applied : machine.effects) {
-    names += fmt::format("{}{}{}{}", names.empty() ? "" : ", ", applied.effect,
-                         applied.side.empty() ? "" : " ", applied.side);
-  }
-  return names;
+  const auto name = [](const AppliedEffect& one) {
+    return one.side.empty() ? one.effect : one.effect + " " + one.side;
+  };
+  return fmt::format("{}", fmt::join(mapped(machine.effects, name), ", "));
 }
 
 tl::expected<std::vector<ChainLengths>, FitFailure> readings_with(
@@ -62,10 +60,9 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid, const Machin
   const auto quiet = readings_with(without, visits);
   if (!quiet) return failed(quiet);
   for (const auto i : each_index(grid.points)) {
-    const ChainLengths read = (*points)[i].lengths;
-    grid.points[i].lengths =
-        ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),
-                     read.right_mm - ((*disturbed)[i].right_mm - (*quiet)[i].right_mm)};
+    ChainLengths read = (*points)[i].lengths;
+    for (const Side side : kSides) read[side] -= (*disturbed)[i][side] - (*quiet)[i][side];
+    grid.points[i].lengths = read;
     grid.points[i].commanded.reset();
   }
   return {};
@@ -87,9 +84,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
         fmt::format("The marks were moved to their true positions ({}).", names_of(paper)));
   }
   if (!visit.effects.empty()) {
-    const bool has_order =
-        all_of(grid.points, [](const MeasuredPoint& point) { return point.order.has_value(); });
-    if (has_order) {
+    if (all_of(grid.points, &MeasuredPoint::order)) {
       Machine both = rest;
       append_all(both.effects, visit.effects);
       if (auto done = correct_readings(corrected.grid, both, rest); !done) return failed(done);

@@ -84,16 +84,6 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
   return fit;
 }
 
-MapPoint map_point(const FittedHole& hole) {
-  MapPoint point;
-  point.mark = hole.place;
-  point.lengths = hole.lengths;
-  const auto shifted = [&hole](MarkPoint from) { return difference(hole.place, from); };
-  point.as_stated_mm = point.sheet_placed_mm = shifted(hole.as_stated);
-  point.mapped_mm = point.left_out_mm = shifted(hole.predicted);
-  return point;
-}
-
 std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit) {
   std::vector<std::string> notes;
   note_rejected(set, fit, notes);
@@ -121,11 +111,9 @@ class DistancesPart final : public FitPart {
     fewest_good = kFewestHoleDistances;
   }
 
-  std::string few_good(std::size_t bad, std::size_t all) const override {
-    std::string sentence = fmt::format(
-        "{} of {} distances contradict the others or the machine file; check the machine's "
-        "measures, the controller's settings, and which holes the distances join",
-        bad, all);
+  std::string to_check() const override {
+    std::string sentence =
+        "the machine's measures, the controller's settings, and which holes the distances join";
     if (const auto tape_zero = suspected_tape_zero_offset_mm(set())) {
       sentence += fmt::format(", and whether the tape's hook offset ({:.0f} mm?) was left out",
                               std::round(*tape_zero));
@@ -158,11 +146,14 @@ class DistancesPart final : public FitPart {
 
   /// For sets of holes alone the points are the holes, and errors are those of distances.
   void add_holes(MapDraft& draft, const Fitting& fitting, const FittedDistances& fit) const {
-    for (FittedHole hole : fit.holes) {
-      hole.predicted = fitting.in_frame(fit.file, hole.predicted);
-      hole.as_stated = fitting.in_frame(fit.file, hole.as_stated);
-      hole.place = fitting.in_frame(fit.file, hole.place);
-      draft.map.points.push_back(map_point(hole));
+    for (const FittedHole& hole : fit.holes) {
+      MapPoint point{.mark = fitting.in_frame(fit.file, hole.place), .lengths = hole.lengths};
+      const auto off = [&](MarkPoint from) {
+        return difference(point.mark, fitting.in_frame(fit.file, from));
+      };
+      point.as_stated_mm = point.sheet_placed_mm = off(hole.as_stated);
+      point.mapped_mm = point.left_out_mm = off(hole.predicted);
+      draft.map.points.push_back(point);
     }
     if (fit.file > 0) return;
     draft.map.noise = {0.0, set().hole_sigma_mm, NoiseSource::stated,

@@ -21,26 +21,19 @@ namespace chaintrue::grid {
 
 namespace {
 
-/// A full grid and its values.
-struct Lattice : LatticeNodes {
+/// Repeats are averaged; an empty crossing has zeros.
+PerSide<MatrixXd> lengths_at(const LatticeNodes& nodes, const std::vector<LengthPoint>& points) {
   PerSide<MatrixXd> lengths_mm;
-};
-
-/// Repeats are averaged.
-Lattice lattice_of(const std::vector<LengthPoint>& points) {
-  std::vector<MarkPoint> marks;
-  for (const LengthPoint& point : points) marks.push_back(point.mark);
-  Lattice lattice{lattice_nodes(marks), {}};
   for (const Side side : kSides) {
-    MatrixXd& lengths_mm = lattice.lengths_mm[side];
-    lengths_mm = MatrixXd::Zero(lattice.visits.rows(), lattice.visits.cols());
+    MatrixXd& own = lengths_mm[side];
+    own = MatrixXd::Zero(nodes.visits.rows(), nodes.visits.cols());
     for (const auto i : each_index(points)) {
-      const auto [ix, iy] = lattice.of_mark[i];
-      lengths_mm(ix, iy) += points[i].lengths[side];
+      const auto [ix, iy] = nodes.of_mark[i];
+      own(ix, iy) += points[i].lengths[side];
     }
-    lengths_mm.array() /= lattice.visits.array().max(1).cast<double>();
+    own.array() /= nodes.visits.array().max(1).cast<double>();
   }
-  return lattice;
+  return lengths_mm;
 }
 
 /// The prediction of each inner line's nodes by a map without that line.
@@ -51,50 +44,43 @@ struct LineErrors {
   double interpolation_sigma_mm = 0.0;
 };
 
-LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& ends, bool columns) {
-  const std::vector<double>& lines = columns ? lattice.x_nodes_mm : lattice.y_nodes_mm;
+LineErrors leave_lines_out(const DirectSurface& surface, bool columns) {
+  const auto lines = columns ? &DirectSurface::x_nodes_mm : &DirectSurface::y_nodes_mm;
+  const auto across = columns ? &DirectSurface::y_nodes_mm : &DirectSurface::x_nodes_mm;
   LineErrors errors;
   double squares = 0.0;
-  for (std::size_t line = 1; line + 1 < lines.size(); ++line) {
-    Indices x = numbers_below(lattice.x_nodes_mm.size()),
-            y = numbers_below(lattice.y_nodes_mm.size());
+  for (std::size_t line = 1; line + 1 < (surface.*lines).size(); ++line) {
+    Indices x = numbers_below(surface.x_nodes_mm.size()),
+            y = numbers_below(surface.y_nodes_mm.size());
     std::erase(columns ? x : y, line);
-    const auto x_kept = mapped(x, [&](std::size_t i) { return lattice.x_nodes_mm[i]; });
-    const auto y_kept = mapped(y, [&](std::size_t i) { return lattice.y_nodes_mm[i]; });
-    const auto axes = std::make_shared<const interp::TensorAxes>(x_kept, y_kept, ends);
-    const auto spline = [&](const MatrixXd& all) {
-      const MatrixXd values = all(x, y);
-      return interp::TensorSpline(axes, values, parabola_slopes(x_kept, y_kept, values));
-    };
-    const interp::TensorSpline left = spline(lattice.lengths_mm.left);
-    const interp::TensorSpline right = spline(lattice.lengths_mm.right);
-    const std::size_t nodes = columns ? lattice.y_nodes_mm.size() : lattice.x_nodes_mm.size();
-    for (const std::size_t node : each_below(nodes)) {
-      const std::size_t ix = columns ? line : node;
-      const std::size_t iy = columns ? node : line;
-      const auto l = left.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
-      const auto r = right.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
-      const auto i = as_index(ix);
-      const auto j = as_index(iy);
-      HeldOutResidual residual;
-      residual.chain_mm = {lattice.lengths_mm.left(i, j) - l.value,
-                           lattice.lengths_mm.right(i, j) - r.value};
-      residual.mark_jacobian << l.dx, l.dy, r.dx, r.dy;
-      squares += residual.chain_mm.squaredNorm();
-      errors.residuals.push_back(residual);
+    MapContents rest;
+    auto& left = std::get<DirectSurface>(rest.surface = surface);
+    (left.*lines).erase((left.*lines).begin() + static_cast<std::ptrdiff_t>(line));
+    for (const Side side : kSides) left.lengths_mm[side] = surface.lengths_mm[side](x, y);
+    const MapField field(rest);
+    for (const std::size_t node : each_index(surface.*across)) {
+      const auto [ix, iy] = columns ? std::pair(line, node) : std::pair(node, line);
+      const auto i = as_index(ix), j = as_index(iy);
+      const ChainLengths there{surface.lengths_mm.left(i, j), surface.lengths_mm.right(i, j)};
+      // Without a machine it has an answer everywhere.
+      const MapLengths here =
+          field.at({surface.x_nodes_mm[ix], surface.y_nodes_mm[iy]}).value().here;
+      const Vector2d off = difference(there, here.lengths);
+      squares += off.squaredNorm();
+      errors.residuals.push_back({off, here.mark_jacobian});
     }
   }
   if (!errors.residuals.empty()) {
     const double rms = std::sqrt(squares / (2.0 * as_double(errors.residuals.size())));
-    errors.interpolation_sigma_mm = rms / (lines.size() > 4 ? 16.0 : 8.0);
+    errors.interpolation_sigma_mm = rms / ((surface.*lines).size() > 4 ? 16.0 : 8.0);
   }
   return errors;
 }
 
-tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
-  const Index nx = lattice.visits.rows();
-  const Index ny = lattice.visits.cols();
-  const auto missing = (lattice.visits.array() == 0).count();
+tl::expected<void, FitFailure> check_full(const LatticeNodes& nodes) {
+  const Index nx = nodes.visits.rows();
+  const Index ny = nodes.visits.cols();
+  const auto missing = (nodes.visits.array() == 0).count();
   if (missing == 0 && nx >= 2 && ny >= 2) return {};
   return failed(
       FitReason::not_a_grid,
@@ -109,17 +95,19 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                                                      const FitOptions& options) {
   const auto points = length_points(grid);
   if (!points) return failed(FitReason::no_lengths, points.error());
-  Lattice lattice = lattice_of(*points);
-  if (auto full = check_full(lattice); !full) return failed(full);
-
-  const LineErrors columns = leave_lines_out(lattice, options.ends, true);
-  const LineErrors rows = leave_lines_out(lattice, options.ends, false);
+  const auto marks = mapped(*points, &LengthPoint::mark);
+  const LatticeNodes nodes = lattice_nodes(marks);
+  if (auto full = check_full(nodes); !full) return failed(full);
+  DirectSurface surface{nodes.x_nodes_mm, nodes.y_nodes_mm, lengths_at(nodes, *points),
+                        options.ends};
+  const LineErrors columns = leave_lines_out(surface, true);
+  const LineErrors rows = leave_lines_out(surface, false);
+  surface.interpolation_sigma_mm =
+      std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm);
   MapContents map;
   map.name = grid.name;
-  map.domain = {lattice.x_nodes_mm.front(), lattice.x_nodes_mm.back(), lattice.y_nodes_mm.front(),
-                lattice.y_nodes_mm.back()};
-  std::vector<MarkPoint> marks;
-  for (const LengthPoint& point : *points) marks.push_back(point.mark);
+  const auto &x = nodes.x_nodes_mm, &y = nodes.y_nodes_mm;
+  map.domain = {x.front(), x.back(), y.front(), y.back()};
   const MeasuredArea area(marks, map.domain);
   map.hull = area.hull();
   map.edge_mm = area.edge_mm();
@@ -133,9 +121,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   const HeldOutError by_columns = summarise(columns.residuals);
   const HeldOutError by_rows = summarise(rows.residuals);
   map.accuracy.blocked = by_columns.tool.rms_mm > by_rows.tool.rms_mm ? by_columns : by_rows;
-  map.surface =
-      DirectSurface{lattice.x_nodes_mm, lattice.y_nodes_mm, lattice.lengths_mm, options.ends,
-                    std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
+  map.surface = std::move(surface);
   map.notes.push_back(
       "The lengths were interpolated without a machine. With few points the error between them "
       "reaches millimetres near the motors, however accurately each point was measured. "

@@ -63,8 +63,8 @@ class FitPart {
   [[nodiscard]] virtual tl::expected<void, FitFailure> find_noise(Fitting& /*alone*/) { return {}; }
   /// States the noise found from this file alone.
   virtual void take_noise(const Fitting& /*alone*/) {}
-  /// Why a single file has too few good units.
-  virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;
+  /// What to check if a single file has too few good units.
+  virtual std::string to_check() const = 0;
   /// Puts the file, `file` by its number, into the map. `name` is empty if it is the only one.
   virtual void add_to(MapDraft& draft, const Fitting& fitting, std::size_t file,
                       const std::string& name) const = 0;

@@ -98,21 +98,21 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
                                                  const Parts& parts,
                                                  const estimation::Estimate& estimate) {
   for (const auto k : each_index(parts)) {
-    std::size_t all = 0;
-    std::size_t bad = 0;
+    std::size_t all = 0, bad = 0;
     for (const estimation::UnitEstimate& unit : estimate.units) {
-      if (unit.observation != k) continue;
-      ++all;
-      bad += unit.is_rejected() ? 1 : 0;
+      all += unit.observation == k;
+      bad += unit.observation == k && unit.is_rejected();
     }
     const bool alone = parts.size() == 1;
     if (3 * bad <= all && (!alone || all - bad >= parts[k]->fewest_good)) continue;
+    const std::string_view units = parts[k]->observation->kind().units;
     return failed(
         FitReason::rank_deficient,
-        alone ? parts[k]->few_good(bad, all)
+        alone ? fmt::format("{} of {} {} contradict the others or the machine file; check {}", bad,
+                            all, units, parts[k]->to_check())
               : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
                             "all from one machine, with the same chains on the same teeth?",
-                            files[k].name, bad, all, parts[k]->observation->kind().units));
+                            files[k].name, bad, all, units));
   }
   return {};
 }
@@ -165,8 +165,7 @@ std::vector<std::string> notes_of(const Parts& parts, const Fitting& fitting,
                                   const std::vector<MeasuredFile>& files, const MapDraft& draft,
                                   const std::vector<SettingResult>& settings) {
   std::vector<std::string> notes;
-  const auto append = [&notes](const std::vector<std::string>& more) { append_all(notes, more); };
-  for (const auto& part : parts) append(part->corrections);
+  for (const auto& part : parts) append_all(notes, part->corrections);
   if (parts.size() > 1) {
     notes.push_back(
         fmt::format("Fitted together: {}. The map's frame is that of {}. The noise is {:.2f} "
@@ -176,9 +175,9 @@ std::vector<std::string> notes_of(const Parts& parts, const Fitting& fitting,
                     fitting.estimate.noise_factor, fitting.input.noise.degrees_of_freedom));
     note_zeros(files, fitting.estimate, notes);
   }
-  append(draft.notes);
+  append_all(notes, draft.notes);
   note_settings_off(settings, notes);
-  append(draft.frame_notes);
+  append_all(notes, draft.frame_notes);
   if (fitting.input.surface == estimation::SurfaceUse::on_evidence) {
     notes.emplace_back(
         fitting.estimate.has_surface
@@ -193,7 +192,7 @@ std::vector<std::string> notes_of(const Parts& parts, const Fitting& fitting,
         "between good and bad. Measure those with the largest errors again.",
         parts.size() > 1 ? "readings" : parts.front()->observation->kind().units));
   }
-  append(draft.last_notes);
+  append_all(notes, draft.last_notes);
   return notes;
 }
 

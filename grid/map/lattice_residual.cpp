@@ -104,8 +104,10 @@ std::optional<LatticeFit> fit_lattice(const estimation::Estimate& estimate,
     Vector2d residual = points[i].left_out;
     if (!points[i].is_rejected()) {
       errors_there.push_back(residual);
-      residual = {values.left(ix, iy) - predicted(*places, values.left, ix, iy),
-                  values.right(ix, iy) - predicted(*places, values.right, ix, iy)};
+      for (const Side side : kSides) {
+        residual[row_of(side)] =
+            values[side](ix, iy) - predicted(*places, values[side], ix, iy);
+      }
       if (!residual.allFinite()) return std::nullopt;
       errors_here.push_back(residual);
     }

@@ -10,33 +10,11 @@
 namespace chaintrue::grid {
 namespace {
 
-void name_rows(const observation::BeltLengthReadings& observed, const Mechanism& mechanism,
-               CheckReadings& readings) {
-  for (const auto u : each_index(observed.units())) {
-    const observation::Unit& unit = observed.units()[u];
-    const std::string name = observed.name_of(u);
-    const observation::LengthsAtPlace& place = observed.readings()[observed.place_of(u)];
-    const auto rows = as_size(unit.rows);
-    readings.units.push_back({name, unit.index, readings.names.size(), rows});
-    for (std::size_t i = 0, row = 0; row < rows; ++i) {
-      if (place.known && !place.counts(as_index(i))) continue;
-      ++row;
-      readings.names.push_back(place.known ? fmt::format("{}, {}", name, mechanism.lengths()[i])
-                                           : fmt::format("{}, check {}", name, row));
-    }
-  }
-}
-
-/// The effect of a millimetre of each length at a place on the rows of its unit.
-MatrixXd by_length_of(const observation::LengthsAtPlace& place,
-                      const observation::UnitState& unit) {
-  if (!place.known) return unit.by_reading;
-  MatrixXd by_length = MatrixXd::Zero(unit.covariance.rows(), place.lengths_mm.size());
-  Index row = 0;
-  for (const Index i : each_below(by_length.cols())) {
-    if (place.counts(i)) by_length(row++, i) = 1.0;
-  }
-  return by_length;
+/// The lengths that count.
+ColumnSet counted(const observation::LengthsAtPlace& place) {
+  auto lengths = numbers_below<Index>(place.lengths_mm.size());
+  std::erase_if(lengths, [&](Index i) { return !place.counts(i); });
+  return lengths;
 }
 
 tl::expected<CheckReadings, CheckFailure> readings_of(
@@ -60,25 +38,32 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   std::vector<Eigen::Triplet<double>> entries;
   for (const Index u : each_below(units)) {
     const observation::UnitState& unit = line->units[as_size(u)];
+    const observation::Unit& rows = observed.units()[as_size(u)];
     const std::size_t at = observed.place_of(as_size(u));
     const observation::LengthsAtPlace& place = observed.readings()[at];
     // The place was found above.
     readings.lengths_mm.segment(lengths * u, lengths) =
         place.lengths_mm - observed.block_line(view, {{at}, {}}, false)->residual_mm;
-    const MatrixXd by_length = by_length_of(place, unit);
-    for (const Index i : each_below(by_length.rows())) {
+    const ColumnSet own = counted(place);
+    const std::string name = observed.name_of(as_size(u));
+    MatrixXd by_length = unit.by_reading;
+    if (place.known) by_length = MatrixXd::Identity(lengths, lengths)(own, Eigen::all);
+    for (const Index i : each_below(rows.rows)) {
       for (const Index k : each_below(lengths))
-        entries.emplace_back(observed.units()[as_size(u)].first_row + i, lengths * u + k,
-                             by_length(i, k));
+        entries.emplace_back(rows.first_row + i, lengths * u + k, by_length(i, k));
+      readings.names.push_back(
+          place.known
+              ? fmt::format("{}, {}", name, fitted.mechanism->lengths()[as_size(own[as_size(i)])])
+              : fmt::format("{}, check {}", name, i + 1));
     }
     readings.covariance.own.push_back(unit.covariance);
+    readings.units.push_back({name, rows.index, as_size(rows.first_row), as_size(rows.rows)});
   }
   readings.by_length.setFromTriplets(entries.begin(), entries.end());
   readings.covariance.shared.resize(observed.rows(), 0);
   readings.covariance.of_map =
       narrowed(readings.by_parameter * linear::covariance_root(fitted.covariance));
   readings.changes = fitted.mechanism->possible_changes();
-  name_rows(observed, *fitted.mechanism, readings);
   return readings;
 }
 

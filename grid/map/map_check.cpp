@@ -89,9 +89,7 @@ double chi_squared(const Check& check) {
 }
 
 double rms_mm(const Check& check) {
-  double sum = 0.0;
-  for (const CheckResidual& one : check.residuals) sum += one.residual_mm * one.residual_mm;
-  return std::sqrt(sum / as_double(std::max<std::size_t>(check.residuals.size(), 1)));
+  return rms(mapped(check.residuals, &CheckResidual::residual_mm));
 }
 
 using Settings = model::ControllerSettings;

@@ -38,22 +38,20 @@ std::vector<SettingResult> setting_results(const Machine& stated,
   std::vector<SettingResult> results;
   for (const auto i : each_index(estimate.settings)) {
     const auto at = as_index(i);
-    SettingResult result{estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)),
-                         false};
+    SettingResult& result = results.emplace_back();
+    result.setting = estimate.settings[i];
+    result.sigma = std::sqrt(estimate.covariance(at, at));
+    double usual = kInfinity;
     if (i < kMachineSettings.size()) {
       result.stated = model::stated_value(stated, result.setting);
       result.calibrated = model::stated_value(estimate.machine, result.setting);
-      const double sigma = model::stated_sigma(stated, result.setting);
-      result.off = std::abs(result.calibrated - result.stated) > kOffSigmas * sigma;
+      usual = model::stated_sigma(stated, result.setting);
     } else {
       const std::size_t which = i - kMachineSettings.size();
       result.calibrated = placement[which];
-      if (sheet) {
-        const double sigma = which < 2 ? sheet->shift_mm : 1e-3 * sheet->rotation_mrad;
-        result.off = std::abs(result.calibrated) > kOffSigmas * sigma;
-      }
+      if (sheet) usual = which < 2 ? sheet->shift_mm : 1e-3 * sheet->rotation_mrad;
     }
-    results.push_back(result);
+    result.off = std::abs(result.calibrated - result.stated) > kOffSigmas * usual;
   }
   return results;
 }

@@ -96,15 +96,12 @@ tl::expected<BedPoint, MapFailure> MechanismMap::tool(ChainLengths lengths) cons
 
 ChainLengths MechanismMap::sigma(BedPoint point) const {
   const auto centre = lengths_of(spread_.centre, point);
-  ChainLengths variance;
+  Vector2d variance = Vector2d::Constant(fitted_.sheet.own_variance_mm2(point));
   for (const PlacedMechanism& other : spread_.others) {
     const auto there = lengths_of(other, point);
-    if (!centre || !there) continue;
-    variance.left_mm += std::pow(there->left_mm - centre->left_mm, 2);
-    variance.right_mm += std::pow(there->right_mm - centre->right_mm, 2);
+    if (centre && there) variance += difference(*there, *centre).cwiseAbs2();
   }
-  const double own = fitted_.sheet.own_variance_mm2(point);
-  return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
+  return {std::sqrt(variance[0]), std::sqrt(variance[1])};
 }
 
 Matrix2Xd MechanismMap::tool_spread(BedPoint point) const {

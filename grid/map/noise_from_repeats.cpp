@@ -28,16 +28,11 @@ StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid) {
 std::optional<RepeatNoise> noise_from_repeats(const std::vector<FittedPoint>& points,
                                               const observation::PointNoise& noise,
                                               const observation::PointNoise& rounding) {
-  std::vector<LengthPoint> good;
-  std::vector<const FittedPoint*> fitted;
-  for (const FittedPoint& point : points) {
-    if (point.is_rejected()) continue;
-    good.push_back(point.point);
-    fitted.push_back(&point);
-  }
+  std::vector<FittedPoint> good = points;
+  std::erase_if(good, [](const FittedPoint& point) { return point.is_rejected(); });
   RepeatScatter scatter(noise, rounding);
-  for (const auto& group : repeat_groups(good)) {
-    for (const std::size_t i : group) scatter.add(fitted[i]->residual, fitted[i]->mark_jacobian);
+  for (const auto& group : repeat_groups(mapped(good, &FittedPoint::point))) {
+    for (const std::size_t i : group) scatter.add(good[i].residual, good[i].mark_jacobian);
     scatter.end_group();
   }
   return scatter.noise();

@@ -121,11 +121,8 @@ class PointsPart final : public FitPart {
     observe();
   }
 
-  std::string few_good(std::size_t bad, std::size_t all) const override {
-    return fmt::format(
-        "{} of {} points contradict the others or the machine file; check the machine's measures, "
-        "the order of the columns and the units",
-        bad, all);
+  std::string to_check() const override {
+    return "the machine's measures, the order of the columns and the units";
   }
 
   void add_to(MapDraft& draft, const Fitting& fitting, std::size_t file,

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/estimation/unit_whitening.hpp"
 #include "grid/precondition.hpp"
 #include "interp/eigen.hpp"
 #include "interp/linear_algebra.hpp"
@@ -78,8 +79,7 @@ class FactoredCovariance {
     Index rows = 0;
     std::vector<Eigen::Triplet<double>> entries;
     for (const MatrixXd& own : covariance.own) {
-      whitening_.push_back(whitening_of_unit(own));
-      const MatrixXd& white = whitening_.back();
+      const MatrixXd& white = whitening_.emplace_back(estimation::unit_whitening(own));
       for (const Index i : each_below(white.rows())) {
         for (Index j = 0; j <= i; ++j) entries.emplace_back(rows + i, rows + j, white(i, j));
         log_root_det_ -= std::log(white(i, i));
@@ -90,6 +90,8 @@ class FactoredCovariance {
       throw precondition("readings of {} rows in units, {} of shared errors, {} of the map", rows,
                          covariance.shared.rows(), covariance.rows());
     }
+    if (!std::isfinite(log_root_det_))
+      throw precondition("readings whose noise is not positive: log |L| = {}", log_root_det_);
     white_.resize(rows, rows);
     white_.setFromTriplets(entries.begin(), entries.end());
     shared_ = white_ * covariance.shared;
@@ -136,16 +138,6 @@ class FactoredCovariance {
   }
 
  private:
-  /// L^-1 of a unit. Throws if the noise is not positive.
-  static MatrixXd whitening_of_unit(const MatrixXd& own) {
-    const linear::Cholesky factor(own);
-    if (own.size() == 0 || !factor.is_positive_definite()) {
-      throw precondition("{} readings of one unit whose least variance is {:g} mm^2", own.rows(),
-                         own.size() > 0 ? own.diagonal().minCoeff() : 0.0);
-    }
-    return factor.half_solve(MatrixXd::Identity(own.rows(), own.cols()));
-  }
-
   Index columns() const { return shared_.cols() + of_map_.cols(); }
   MatrixXd gram() const {
     const Index k = shared_.cols();

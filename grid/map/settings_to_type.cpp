@@ -72,13 +72,12 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
     all.push_back({&S::top_beam_tilt_deg, tilt_deg});
     all.push_back({&S::chain_elongation_per_n, usual_size("chain_stretch"), 1e9});
   }
-  std::vector<FreeSetting> present;
-  for (const FreeSetting& setting : all) {
+  std::erase_if(all, [&](const FreeSetting& setting) {
     const bool written = (machine.controller.settings.*setting.value).has_value();
     // Exactly known values are fixed.
-    if (written && setting.sigma > 0.0) present.push_back(setting);
-  }
-  return present;
+    return !written || !(setting.sigma > 0.0);
+  });
+  return all;
 }
 
 /// The errors with such settings.
@@ -163,14 +162,6 @@ std::optional<TypedSettings> best_settings(const Truth& truth,
   return TypedSettings{settings, *errors, rms_of(places, *errors)};
 }
 
-/// The tool's error with the best settings for such a machine.
-std::optional<double> left_with(const Truth& truth, const Machine& machine) {
-  const std::vector<MeasuredPlace> places = truth.places(machine);
-  if (places.empty()) return std::nullopt;
-  const auto best = best_settings(truth, places);
-  return best ? std::optional(best->rms_mm) : std::nullopt;
-}
-
 Machine without_effect(Machine machine, const std::string& effect) {
   std::erase_if(machine.effects, [&](const auto& applied) { return applied.effect == effect; });
   return machine;
@@ -202,9 +193,11 @@ std::vector<Lacking> lacking_of(const Truth& truth, double left_mm) {
   constexpr double kWorthSayingMm = 0.05;
   std::vector<Lacking> lacking;
   for (const auto& [what, machine] : machines_without(truth.machine)) {
-    const auto without_mm = left_with(truth, machine);
-    if (!without_mm || *without_mm >= left_mm) continue;
-    const double costs_mm = std::sqrt(left_mm * left_mm - *without_mm * *without_mm);
+    const std::vector<MeasuredPlace> places = truth.places(machine);
+    if (places.empty()) continue;
+    const auto best = best_settings(truth, places);
+    if (!best || best->rms_mm >= left_mm) continue;
+    const double costs_mm = std::sqrt(left_mm * left_mm - best->rms_mm * best->rms_mm);
     if (costs_mm >= kWorthSayingMm) lacking.push_back({what, costs_mm});
   }
   return lacking;
@@ -281,8 +274,7 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(
   };
   truth.sigma_mm = map.contents().accuracy.expected_tool.rms_mm;
   const auto& points = map.contents().points;
-  truth.points = as_size(
-      std::count_if(points.begin(), points.end(), [](const MapPoint& p) { return !p.bad; }));
+  truth.points = points.size() - count_where(points, &MapPoint::bad);
   return settings_for(truth);
 }
 

@@ -45,14 +45,13 @@ class Separation {
       rows.push_back(rows.back() + 1);
     }
     const auto count = std::ssize(rows);
-    MatrixXd k = covariance_(rows, rows);
+    MatrixXd shifted = MatrixXd::Zero(count, 2), grown = shifted;
     for (const Index i : each_below(count)) {
-      for (Index j = i % 2; j < count; j += 2)
-        k(i, j) += model::kZeroShiftSigmaMm * model::kZeroShiftSigmaMm;
-    }
-    MatrixXd grown = MatrixXd::Zero(count, 2);
-    for (const Index i : each_below(count))
+      shifted(i, i % 2) = model::kZeroShiftSigmaMm;
       grown(i, i % 2) = model::kPitchGrowthSigma * readings_.lengths_mm[rows[as_size(i)]];
+    }
+    MatrixXd k = covariance_(rows, rows);
+    linear::add_outer(k, 1.0, shifted);
     const MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }

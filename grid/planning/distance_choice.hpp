@@ -42,6 +42,16 @@ struct PlannedPlace {
   Eigen::Matrix<double, 2, kPlanUnknowns> by_unknown;
 };
 
+/// The set to plan, without holes and distances.
+inline MeasuredHoles empty_set(const Machine& machine, const HolesPlanRequest& request) {
+  MeasuredHoles set;
+  set.name = "plan";
+  set.machine = machine;
+  set.tape.sigma_mm = request.tape_sigma_mm;
+  set.hole_sigma_mm = request.hole_sigma_mm;
+  return set;
+}
+
 /// How single choices are exchanged for others.
 struct Exchange {
   int sweeps;         ///< over all of them, at most
@@ -86,11 +96,10 @@ class DistanceChooser {
   /// `prior` is S before any measurement; `root` is L.
   DistanceChooser(const Machine& machine, const HolesPlanRequest& request, MatrixXd prior,
                   MatrixXd root)
-      : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
-    frame_.machine = machine;
-    frame_.tape.sigma_mm = request.tape_sigma_mm;
-    frame_.hole_sigma_mm = request.hole_sigma_mm;
-  }
+      : request_(request),
+        frame_(empty_set(machine, request)),
+        prior_(std::move(prior)),
+        root_(std::move(root)) {}
 
   struct Choice {
     std::vector<HoleDistance> distances;

@@ -37,30 +37,33 @@ struct ToolError {
   MatrixXd whole;
 };
 
-/// Derivative by the unknowns of the position on the sheet that is cut with the chain lengths of a
-/// given position; empty if the machine has no pose there.
-std::optional<PlannedPlace> planned_place(const ReadingModel& model, MarkPoint place) {
-  const auto reading = model.at(identity_placement(place));
-  if (!reading) return std::nullopt;
-  Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
-  for (const auto i : each_index(kMachineSettings)) {
-    lengths.col(as_index(i)) = model.sensitivity(*reading, kMachineSettings[i]);
+/// Those where the machine has a pose, with the derivative by the unknowns of the position on the
+/// sheet that is cut with the chain lengths of the given one.
+std::vector<PlannedPlace> planned_places(const Machine& machine,
+                                         const std::vector<MarkPoint>& places) {
+  const ReadingModel model(machine);
+  std::vector<PlannedPlace> result;
+  for (const MarkPoint& place : places) {
+    const auto reading = model.at(identity_placement(place));
+    if (!reading) continue;
+    Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
+    for (const auto i : each_index(kMachineSettings)) {
+      lengths.col(as_index(i)) = model.sensitivity(*reading, kMachineSettings[i]);
+    }
+    lengths.rightCols<2>() = vector_of(reading->lengths).asDiagonal();
+    PlannedPlace& planned = result.emplace_back();
+    planned.place = place;
+    planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
+        -SheetPlacement{}.sensitivity(place);
   }
-  lengths.rightCols<2>() = vector_of(reading->lengths).asDiagonal();
-  PlannedPlace planned{place, {}};
-  planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
-      -SheetPlacement{}.sensitivity(place);
-  return planned;
+  return result;
 }
 
 /// If the sheet's placement does not matter, `root` is without the common part (best placement of
 /// the sheet).
 ToolError tool_error(const Machine& machine, bool sheet_counts) {
-  const ReadingModel model(machine);
-  std::vector<PlannedPlace> places;
-  for (const MarkPoint& place : raster(area_of(machine.bed), 13, 7, RasterOf::cells)) {
-    if (const auto planned = planned_place(model, place)) places.push_back(*planned);
-  }
+  const std::vector<PlannedPlace> places =
+      planned_places(machine, raster(area_of(machine.bed), 13, 7, RasterOf::cells));
   const auto count = std::ssize(places);
   if (count < kPlanUnknowns) {
     return {MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns), MatrixXd::Zero(3, kPlanUnknowns)};
@@ -88,15 +91,6 @@ double shorter_side_mm(const Machine& machine, double margin_mm) {
 }
 double least_apart_mm(const Machine& machine, double margin_mm) {
   return std::min(kLeastApartMm, 0.5 * shorter_side_mm(machine, margin_mm));
-}
-std::vector<PlannedPlace> candidates(const Machine& machine, double margin_mm) {
-  const ReadingModel model(machine);
-  std::vector<PlannedPlace> result;
-  for (const MarkPoint& place :
-       whole_mm(raster(area_of(machine.bed, -margin_mm), 9, 5, RasterOf::nodes))) {
-    if (const auto planned = planned_place(model, place)) result.push_back(*planned);
-  }
-  return result;
 }
 
 bool is_free(const Holes& holes, std::size_t moved, double apart_mm) {
@@ -147,11 +141,7 @@ MeasuredHoles set_of(const Machine& machine, const HolesPlanRequest& request, co
     return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
   });
   Indices number(holes.size());
-  MeasuredHoles set;
-  set.name = "plan";
-  set.machine = machine;
-  set.tape.sigma_mm = request.tape_sigma_mm;
-  set.hole_sigma_mm = request.hole_sigma_mm;
+  MeasuredHoles set = empty_set(machine, request);
   for (const auto i : each_index(order)) {
     number[order[i]] = i;
     set.holes.push_back(
@@ -307,7 +297,9 @@ int distances_of(const HolesPlanRequest& request) {
 tl::expected<HolesPlan, PlanFailure> plan_holes(const Machine& machine,
                                                 const HolesPlanRequest& request) {
   check(machine, request);
-  const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
+  const std::vector<PlannedPlace> places = planned_places(
+      machine,
+      whole_mm(raster(area_of(machine.bed, -request.margin_mm), 9, 5, RasterOf::nodes)));
   if (places.size() < as_size(request.holes)) {
     return failed(PlanReason::too_few_places,
                   fmt::format("the machine can cut at only {} of the places tried; a wider "

@@ -31,78 +31,66 @@ constexpr int kRasterRows = 24;
 /// Mirror images differ by rounding, less than this; the first one is kept.
 constexpr double kWorse = 1.0 + 1e-6;
 
-class Planner {
- public:
-  Planner(const Machine& machine, const PlanRequest& request)
-      : machine_(machine), model_(machine), request_(request) {}
-
-  [[nodiscard]] tl::expected<CompensationMap, PlanFailure> map_of(
-      const std::vector<MarkPoint>& marks) const {
-    MeasuredGrid grid;
-    grid.name = "plan";
-    grid.machine = machine_;
-    grid.noise = StatedNoise{request_.noise.length_mm, request_.noise.position_mm, kCertainDof};
-    for (const MarkPoint& mark : marks) {
-      const auto reading = model_.at(identity_placement(mark));
-      if (!reading) {
-        return failed(PlanReason::unreachable,
-                      fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
-                                  "margin leaves such places out",
-                                  mark.x_mm, mark.y_mm, reading.error().sentence()));
-      }
-      const ChainLengths disturbance = synthetic::unmodelled(identity_placement(mark));
-      grid.points.push_back(
-          {mark,
-           ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,
-                        reading->lengths.right_mm + kDisturbanceMm * disturbance.right_mm},
-           std::nullopt, std::nullopt});
+/// Of simulated readings at the marks.
+tl::expected<CompensationMap, PlanFailure> planned_map(const Machine& machine,
+                                                  const PlanRequest& request,
+                                                  const std::vector<MarkPoint>& marks) {
+  const ReadingModel model(machine);
+  MeasuredGrid grid;
+  grid.name = "plan";
+  grid.machine = machine;
+  grid.noise = StatedNoise{request.noise.length_mm, request.noise.position_mm, kCertainDof};
+  for (const MarkPoint& mark : marks) {
+    const auto reading = model.at(identity_placement(mark));
+    if (!reading) {
+      return failed(PlanReason::unreachable,
+                    fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
+                                "margin leaves such places out",
+                                mark.x_mm, mark.y_mm, reading.error().sentence()));
     }
-    auto map = fit(grid);
-    if (!map) return failed(PlanReason::no_map, map.error().sentence());
-    return *std::move(map);
+    ChainLengths lengths = reading->lengths;
+    const ChainLengths disturbance = synthetic::unmodelled(identity_placement(mark));
+    for (const Side side : kSides) lengths[side] += kDisturbanceMm * disturbance[side];
+    grid.points.push_back({mark, lengths, std::nullopt, std::nullopt});
   }
+  auto map = fit(grid);
+  if (!map) return failed(PlanReason::no_map, map.error().sentence());
+  return *std::move(map);
+}
 
-  /// The cell of the raster with the largest expected error where a mark is allowed.
-  std::optional<MarkPoint> worst_free(const CompensationMap& map,
-                                      const std::vector<MarkPoint>& marks) const {
-    const Bed& bed = machine_.bed;
-    const interp::Rectangle allowed = area_of(bed, -request_.margin_mm);
-    const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
-    std::vector<MarkPoint> places =
-        raster(area_of(bed), kRasterColumns, kRasterRows, RasterOf::cells);
-    for (MarkPoint& place : places) {
-      place = {std::clamp(place.x_mm, allowed.x_min, allowed.x_max),
-               std::clamp(place.y_mm, allowed.y_min, allowed.y_max)};
-    }
-    places = whole_mm(std::move(places));
-    std::optional<MarkPoint> worst;
-    double largest = 0.0;
-    for (const auto i : each_index(errors)) {
-      const MarkPoint& place = places[i];
-      // A point nearer than this to another one adds little information.
-      const bool taken = any_of(marks, [&](const MarkPoint& mark) {
-        return distance_mm(mark, place) <= 2.0 * kRepeatDistanceMm;
-      });
-      if (taken || errors[i] <= kWorse * largest) continue;
-      largest = errors[i];
-      worst = place;
-    }
-    return worst;
+/// The cell of the raster with the largest expected error where a mark is allowed.
+std::optional<MarkPoint> worst_free(const CompensationMap& map, const Bed& bed, double margin_mm,
+                                    const std::vector<MarkPoint>& marks) {
+  const interp::Rectangle allowed = area_of(bed, -margin_mm);
+  const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
+  std::vector<MarkPoint> places =
+      raster(area_of(bed), kRasterColumns, kRasterRows, RasterOf::cells);
+  for (MarkPoint& place : places) {
+    place = {std::clamp(place.x_mm, allowed.x_min, allowed.x_max),
+             std::clamp(place.y_mm, allowed.y_min, allowed.y_max)};
   }
-
- private:
-  const Machine& machine_;
-  ReadingModel model_;
-  const PlanRequest& request_;
-};
+  places = whole_mm(std::move(places));
+  std::optional<MarkPoint> worst;
+  double largest = 0.0;
+  for (const auto i : each_index(errors)) {
+    const MarkPoint& place = places[i];
+    // A point nearer than this to another one adds little information.
+    const bool taken = any_of(marks, [&](const MarkPoint& mark) {
+      return distance_mm(mark, place) <= 2.0 * kRepeatDistanceMm;
+    });
+    if (taken || errors[i] <= kWorse * largest) continue;
+    largest = errors[i];
+    worst = place;
+  }
+  return worst;
+}
 
 /// Rows from the bottom, every other one from right to left; an extra point belongs to the nearest
 /// row.
 void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
   const auto row_of = [&rows](const MarkPoint& mark) {
-    const auto nearest = min_element(rows, [&](double a, double b) {
-      return std::abs(a - mark.y_mm) < std::abs(b - mark.y_mm);
-    });
+    const auto nearest =
+        min_element(rows, ascending([&](double row) { return std::abs(row - mark.y_mm); }));
     return nearest - rows.begin();
   };
   sort(marks, [&](const MarkPoint& a, const MarkPoint& b) {
@@ -147,13 +135,12 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const Machine& machi
     for (double column : x) marks.push_back({column, row});
   }
   marks = whole_mm(std::move(marks));
-  const Planner planner(machine, request);
-  auto map = planner.map_of(marks);
+  auto map = planned_map(machine, request, marks);
   while (map && marks.size() < as_size(request.points)) {
-    const auto next = planner.worst_free(*map, marks);
+    const auto next = worst_free(*map, bed, request.margin_mm, marks);
     if (!next) break;
     marks.push_back(*next);
-    map = planner.map_of(marks);
+    map = planned_map(machine, request, marks);
   }
   if (!map) return failed(map);
   walk(marks, y);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The local design of many readings equals the dense one.
-#include "grid/estimation/local_design.hpp"
+// Many readings enter a fit by their products.
+#include "grid/estimation/joint_priors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "grid/estimation/joint_priors.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/synthetic/generator.hpp"
 
@@ -33,11 +32,10 @@ EstimationInput input_of(int points) {
 
 constexpr double kRounding = 1e-13;
 
-TEST(LocalDesign, EqualsTheDenseDesign) {
+TEST(WeightedRows, OfManyReadingsHaveTheirProducts) {
   const EstimationInput input = input_of(300);
   JointProblem problem(input, true);
   ASSERT_TRUE(problem.linearise(problem.stated()));
-  ASSERT_NE(problem.local(), nullptr);
   const auto units = static_cast<Eigen::Index>(problem.units().size());
   // Some rejected, some at half their weight.
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(units);
@@ -61,26 +59,17 @@ TEST(LocalDesign, EqualsTheDenseDesign) {
   EXPECT_NEAR(weighted.response.squaredNorm(), problem.response().dot(weighted_response),
               kRounding * weighted.response.squaredNorm());
   EXPECT_EQ(weighted.rows, (by_row.array() > 0.0).count());
-  // Any covariance will do.
-  const Eigen::MatrixXd covariance =
-      (gram / gram.trace() + Eigen::MatrixXd::Identity(gram.rows(), gram.rows())).inverse();
-  const auto spreads = problem.local()->spreads(covariance);
-  ASSERT_EQ(spreads.size(), problem.units().size());
-  for (std::size_t u = 0; u < spreads.size(); ++u) {
-    const SystemUnit& unit = problem.units()[u];
-    const auto rows = design.middleRows(unit.first_row, unit.rows);
-    const Eigen::MatrixXd dense = rows * covariance * rows.transpose();
-    const Eigen::MatrixXd terms =
-        rows.cwiseAbs() * covariance.cwiseAbs() * rows.cwiseAbs().transpose();
-    ASSERT_LE((spreads[u] - dense).cwiseAbs().maxCoeff(), kRounding * terms.maxCoeff()) << u;
-  }
+  // An unknown more than the design has is the response's.
+  EXPECT_EQ(weighted.design.rows(), design.cols() + 1);
 }
 
-TEST(LocalDesign, IsForManyReadingsOnly) {
+TEST(WeightedRows, OfFewReadingsAreThemselves) {
   const EstimationInput input = input_of(60);
   JointProblem problem(input, true);
   ASSERT_TRUE(problem.linearise(problem.stated()));
-  EXPECT_EQ(problem.local(), nullptr);
+  const auto units = static_cast<Eigen::Index>(problem.units().size());
+  const auto weighted = estimation::weighted(problem, Eigen::VectorXd::Ones(units));
+  EXPECT_EQ(weighted.design.rows(), problem.design().rows());
 }
 
 }  // namespace
