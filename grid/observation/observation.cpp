@@ -39,6 +39,11 @@ MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance
   return covariance;
 }
 
+ChainPlaceState place_state(const View& view, const model::PointReading& reading, MarkPoint mark) {
+  return {view.corrected(mark, reading.lengths, reading.position_jacobian * view.sheet.rotation()),
+          reading, mark};
+}
+
 Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading, MarkPoint place,
                              const std::vector<Setting>& settings) {
   const Eigen::Matrix<double, 2, 3> by_sheet =

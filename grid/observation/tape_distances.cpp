@@ -244,34 +244,25 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
   std::vector<ChainPlaceState> states;
   for (const auto i : each_index(places_)) {
     const ChainLengths paid_out = places_[i].lengths;
-    BedPoint start = identity_placement(places_[i].mark);
+    MarkPoint mark = places_[i].mark;
     ChainLengths own = paid_out;
     // The machine's lengths that equal the paid-out ones after correction at a mark.
-    const auto correct = [&](MarkPoint mark) {
-      const auto there = view.correction->at(mark, own, Matrix2d::Zero()).lengths;
+    const auto correct = [&] {
+      const auto there = view.corrected(mark, own, Matrix2d::Zero()).lengths;
       own = {paid_out.left_mm - (there.left_mm - own.left_mm),
              paid_out.right_mm - (there.right_mm - own.right_mm)};
     };
-    if (view.correction != nullptr) correct(places_[i].mark);
-    auto reading = view.chains().find(own, start);
-    for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
-      start = reading->pose.position;
+    correct();
+    auto reading = view.chains().find(own, identity_placement(mark));
+    for (int turn = 1; reading && turn < kTurns; ++turn) {
       const ChainLengths before = own;
-      correct(view.sheet.to_mark(start));
-      if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
-          kConvergedMm)
-        break;
-      reading = view.chains().find(own, start);
+      mark = view.sheet.to_mark(reading->pose.position);
+      correct();
+      if (difference(own, before).lpNorm<1>() < kConvergedMm) break;
+      reading = view.chains().find(own, reading->pose.position);
     }
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()).at(i));
-    ChainPlaceState state{*reading, view.sheet.to_mark(reading->pose.position),
-                          reading->position_jacobian * view.sheet.rotation()};
-    if (view.correction != nullptr) {
-      const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);
-      state.by_mark = corrected.by_mark;
-      state.by_length = corrected.by_length;
-    }
-    states.push_back(std::move(state));
+    states.push_back(place_state(view, *reading, view.sheet.to_mark(reading->pose.position)));
   }
   return states;
 }
