@@ -23,11 +23,11 @@ namespace chaintrue::grid::input_checks {
 
 using Place = std::optional<BedPoint>;
 
-/// Points with the places where the stated machine puts their readings.
-struct PlacedPoints {
-  std::vector<MeasuredPoint> points;
-  std::vector<Place> places;
+/// A point with the place where the stated machine puts its reading.
+struct PlacedPoint : MeasuredPoint {
+  Place place;
 };
+using PlacedPoints = std::vector<PlacedPoint>;
 
 /// \pre the grid has a possible machine.
 class PointAccounts {
@@ -64,23 +64,21 @@ class PointAccounts {
   }
 
   PlacedPoints placed(const std::vector<MeasuredPoint>& points) const {
-    PlacedPoints placed{points, {}};
-    for (const MeasuredPoint& point : points) placed.places.push_back(place_of(point));
-    return placed;
+    return mapped(points, [this](const MeasuredPoint& point) {
+      return PlacedPoint{point, place_of(point)};
+    });
   }
 
   /// Marks relative to places, for a second-degree trend. A missing place is a missing row.
   TrendRows rows(const PlacedPoints& placed) const {
-    const auto& [points, places] = placed;
-    const auto n = as_index(points.size());
+    const auto n = std::ssize(placed);
     TrendRows rows{MatrixXd::Zero(n, kPointBasis),
                    MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
     for (const Index i : each_below(n)) {
-      const auto k = as_size(i);
-      if (!places[k]) continue;
-      rows.basis.row(i) = basis_at(*places[k]);
-      rows.off_mm(i, 0) = points[k].mark.x_mm - places[k]->x_mm;
-      rows.off_mm(i, 1) = points[k].mark.y_mm - places[k]->y_mm;
+      const PlacedPoint& own = placed[as_size(i)];
+      if (!own.place) continue;
+      rows.basis.row(i) = basis_at(*own.place);
+      rows.off_mm.row(i) = difference(own.mark, *own.place);
     }
     return rows;
   }
