@@ -230,8 +230,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
     const double alone = known.covariance(row, row);
     for (const Belt belt : kBelts) coordinate.variance_share[belt] *= covariance(row, row) / alone;
   }
-  const double factor = std::exp(state.frame.log_scale);
-  fit.scale = {factor, factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns)), {}};
+  fit.scale = scale_of(state.frame, covariance);
   if (measured.points.empty()) return;
   frame.state = state.frame;
   place_all(measured, frame);
@@ -245,10 +244,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   // The factor found from the uncorrected readings is kept after correcting for causes.
   if (fit.causes.empty())
     fit.rms_mm = rms(std::vector<double>(there.residual_mm.begin(), there.residual_mm.end()));
-  for (const auto i : each_index(measured.distances)) {
-    fit.scale->residuals_mm.push_back(there.distance_residual[as_index(i)] *
-                                      measured.distances[i].sigma_mm);
-  }
+  fit.scale->residuals_mm = there.distance_residual_mm;
 }
 
 /// Covariance of x and, if present, of the displacement at its places; and the displacement.
