@@ -29,6 +29,12 @@ struct SetAndActual {
   ToolPosition set_origin{};
   ToolPosition actual_origin{};
   int first_visit = 0;
+
+  /// What the controller pays out for a command.
+  auto paid_out(ToolPosition command) const {
+    return set->predict({set_origin.x_mm + command.x_mm, set_origin.y_mm + command.y_mm}, {},
+                        model::Derivatives::by_position);
+  }
 };
 
 /// The machine with a cause at a size; empty if there is none.
@@ -96,8 +102,7 @@ ToolPosition numbers_of_mark(const Mechanism& mechanism, ToolPosition place) {
 /// (1). The first two lengths place the tool.
 std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition command,
                                      const MechanismVisit& visit) {
-  const auto paid_out =
-      machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
+  const auto paid_out = machine.paid_out(command);
   if (!paid_out) return std::nullopt;
   const VectorXd& lengths = paid_out->lengths_mm;
   Flags counting(as_size(lengths.size()), false);
@@ -112,10 +117,7 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition c
 
 /// Which way each length went from one point to the next.
 std::vector<double> directions(const SetAndActual& machine, ToolPosition from, ToolPosition to) {
-  const auto before =
-      machine.set->predict(plus(machine.set_origin, from), {}, model::Derivatives::by_position);
-  const auto after =
-      machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
+  const auto before = machine.paid_out(from), after = machine.paid_out(to);
   if (!before || !after) return {};
   return mapped(each_below(after->lengths_mm.size()),
                 [&](Index i) { return after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0; });

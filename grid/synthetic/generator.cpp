@@ -207,10 +207,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   SyntheticAnswer& answer = session.answer;
   answer.seed = spec.seed;
   answer.hidden = spec.hidden;
-  SyntheticTruth truth = truth_of(stated, spec);
-  answer.machine = std::move(truth.machine);
-  answer.offsets = std::move(truth.offsets);
-  answer.sheet = truth.sheet;
+  static_cast<SyntheticTruth&>(answer) = truth_of(stated, spec);
 
   Random mark_random(spec.seed, kMarks);
   Random order_random(spec.seed, kOrder);
