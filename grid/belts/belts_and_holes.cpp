@@ -260,12 +260,9 @@ MatrixXd posterior(const KnownFrame& known, const TapedState& state,
   if (smooth) {
     const MatrixXd kernel =
         displacement_kernel(state.rows.marks, state.rows.marks, state.noise.reach_mm);
-    for (const Index i : each_below(kernel.rows())) {
-      for (const Index j : each_below(kernel.cols())) {
-        const double shared = state.noise.size_mm * state.noise.size_mm * kernel(i, j);
-        prior.block<2, 2>(kFrameUnknowns + 2 * i, kFrameUnknowns + 2 * j) =
-            shared * Matrix2d::Identity();
-      }
+    for (const Index axis : {0, 1}) {
+      const auto own = Eigen::seq(kFrameUnknowns + axis, Eigen::last, Eigen::fix<2>);
+      prior(own, own) = state.noise.size_mm * state.noise.size_mm * kernel;
     }
     by_unknown.rightCols(moved) = g;
   }

@@ -171,19 +171,17 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
 }
 
 void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
-  double square = 0.0;
-  PerBelt<double> squares;
-  PerBelt<int> counts;
+  std::vector<double> all_mm;
+  PerBelt<std::vector<double>> counting_mm;
   for (const auto k : each_index(belts.points)) {
     FittedPlace place{view.frame().state.places[k], view.place_covariance_mm2(k), {}};
     std::vector<BadBeltReading> bad;
     for (const Belt belt : kBelts) {
       BeltResidual& residual = place.belts[belt];
       residual = view.residual(k, belt);
-      square += residual.residual_mm * residual.residual_mm;
+      all_mm.push_back(residual.residual_mm);
       if (residual.counts) {
-        squares[belt] += residual.residual_mm * residual.residual_mm;
-        ++counts[belt];
+        counting_mm[belt].push_back(residual.residual_mm);
       } else {
         bad.push_back({k, belt, residual.deleted_residual_mm});
       }
@@ -196,10 +194,8 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
     }
     fit.places.push_back(std::move(place));
   }
-  fit.rms_mm = std::sqrt(square / (4.0 * as_double(belts.points.size())));
-  for (const Belt belt : kBelts) {
-    fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
-  }
+  fit.rms_mm = rms(all_mm);
+  for (const Belt belt : kBelts) fit.rms_of_mm[belt] = rms(counting_mm[belt]);
   stable_sort(fit.bad,
               descending([](const BadBeltReading& one) { return std::abs(one.residual_mm); }));
 }
