@@ -173,7 +173,12 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
     result.units_.push_back({row, 1, k});
   }
   result.sheet_ = sheet_measured(result.set_);
-  result.state_nuisances();
+  const MeasuredHoles& own = result.set_;
+  const Index of_holes = 2 * std::ssize(own.holes);
+  result.nuisance_sigma_.resize(3 + of_holes);
+  result.nuisance_sigma_ << own.sheet.size_sigma_mm, own.sheet.size_sigma_mm,
+      tape_zero_sigma_mm(own.tape), VectorXd::Constant(of_holes, own.hole_sigma_mm);
+  result.nuisance_sigma_ = result.nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
   return result;
 }
 
@@ -265,14 +270,6 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
     states.push_back(place_state(view, *reading, view.sheet.to_mark(reading->pose.position)));
   }
   return states;
-}
-
-void TapeDistances::state_nuisances() {
-  const Index of_holes = 2 * std::ssize(set_.holes);
-  nuisance_sigma_.resize(3 + of_holes);
-  nuisance_sigma_ << set_.sheet.size_sigma_mm, set_.sheet.size_sigma_mm,
-      tape_zero_sigma_mm(set_.tape), VectorXd::Constant(of_holes, set_.hole_sigma_mm);
-  nuisance_sigma_ = nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
 }
 
 }  // namespace chaintrue::grid::observation
