@@ -66,18 +66,15 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
   const BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
   const auto readings = readings_of(belts, fit.counting, fit.residual_sigma_mm);
   const observation::View view(mechanism_at(belts, fit.state));
-  Flags is_placed(belts.points.size(), false);
-  fit.state.places.resize(belts.points.size());
+  fit.state.places = mapped(belts.points, [&](const BeltPoint& point) {
+    return nearest_place(machine, point, kAllBelts);
+  });
   for (const auto& block : readings.blocks()) {
     const auto line = readings.block_line(view, block, false);
     for (std::size_t p = 0; line && p < block.places.size(); ++p) {
       const std::size_t point = readings.readings()[block.places[p]].index;
       fit.state.places[point] = {line->positions[p].x_mm, line->positions[p].y_mm};
-      is_placed[point] = true;
     }
-  }
-  for (const auto k : each_index(belts.points)) {
-    if (!is_placed[k]) fit.state.places[k] = nearest_place(machine, belts.points[k], kAllBelts);
   }
 }
 

@@ -173,9 +173,7 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const Ancho
   std::vector<NowherePoint> result;
   const BeltMachine machine = with_anchors(belts.machine, frame.state.anchors);
   for (const auto k : each_index(belts.points)) {
-    int rejected = 0;
-    for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
-    if (rejected < 2) continue;
+    if (belts::readings_counting(frame.counting[k]) > 2) continue;
     const auto place = belts::nearest_place(machine, belts.points[k], kAllBelts);
     double residual_mm = 0.0;
     for (const Belt belt : kBelts) {

@@ -140,12 +140,11 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const Mea
                         length_in_words(plain.median_mm))
           : std::string("the machine cannot have these readings"));
   if (finding && finding->from_row.value_or(0) > 0) {
-    const auto from = as_index(*finding->from_row);
-    std::vector<double> residual_mm;
-    for (Index i = from; i < trend.residual_mm.size(); ++i)
-      residual_mm.push_back(trend.residual_mm[i]);
-    finding->found = fmt::format("half of the marks from here on are off by more than {}",
-                                 length_in_words(median(std::move(residual_mm))));
+    const VectorXd& residual_mm = trend.residual_mm;
+    finding->found = fmt::format(
+        "half of the marks from here on are off by more than {}",
+        length_in_words(median({residual_mm.begin() + as_index(*finding->from_row),
+                                residual_mm.end()})));
   }
   if (finding) return finding;
   return strangers(account_of(trend), grid.points.size());

@@ -242,8 +242,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   session.grid.noise = stated_noise(spec);
   session.grid.sheet = spec.sheet;
   session.grid.points = written_down(written, answer.lengths, spec, answer.bad_points);
-  for (const std::size_t point : miscounted(answer.machine, visits))
-    answer.bad_points.push_back(point);
+  append_all(answer.bad_points, miscounted(answer.machine, visits));
   sort_unique(answer.bad_points);
   return session;
 }
