@@ -84,19 +84,10 @@ class PointAccounts {
   }
 
   const VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
-  /// The trend's rotation of the marks to the left about the bed's middle.
-  double turn_rad(const RobustTrend& trend) const {
-    const double up_along_x = trend.coefficients(1, 1) / half_width_mm_;
-    const double right_along_y = trend.coefficients(2, 0) / half_height_mm_;
-    return 0.5 * (up_along_x - right_along_y);
-  }
-
-  /// The largest of its relative stretches along x and y and its skew.
-  double strain(const RobustTrend& trend) const {
-    const MatrixXd& c = trend.coefficients;
-    const double skew = 0.5 * (c(1, 1) / half_width_mm_ + c(2, 0) / half_height_mm_);
-    return std::max(
-        {std::abs(c(1, 0)) / half_width_mm_, std::abs(c(2, 1)) / half_height_mm_, std::abs(skew)});
+  /// d(trend)/d(place) in the bed's middle.
+  Matrix2d slope(const RobustTrend& trend) const {
+    const Vector2d half_mm(half_width_mm_, half_height_mm_);
+    return trend.coefficients.middleRows<2>(1).transpose() * half_mm.cwiseInverse().asDiagonal();
   }
 
   /// Residual of a mark at a place from a trend.

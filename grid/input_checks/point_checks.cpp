@@ -143,8 +143,8 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const Mea
     const VectorXd& residual_mm = trend.residual_mm;
     finding->found = fmt::format(
         "half of the marks from here on are off by more than {}",
-        length_in_words(median({residual_mm.begin() + as_index(*finding->from_row),
-                                residual_mm.end()})));
+        length_in_words(
+            median({residual_mm.begin() + as_index(*finding->from_row), residual_mm.end()})));
   }
   if (finding) return finding;
   return strangers(account_of(trend), grid.points.size());
@@ -157,8 +157,11 @@ std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts, const Me
   constexpr double kLeastTurn = 8e-3;
   constexpr double kPure = 4.0;
   if (grid.sheet || grid.points.size() < kFewestStrangePoints) return std::nullopt;
-  const double turn = accounts.turn_rad(trend);
-  if (std::abs(turn) < std::max(kLeastTurn, kPure * accounts.strain(trend))) return std::nullopt;
+  const Matrix2d slope = accounts.slope(trend);
+  const double turn = 0.5 * (slope(1, 0) - slope(0, 1));  // of the marks, to the left
+  const double skew = 0.5 * (slope(1, 0) + slope(0, 1));
+  const double strain = std::max({std::abs(slope(0, 0)), std::abs(slope(1, 1)), std::abs(skew)});
+  if (std::abs(turn) < std::max(kLeastTurn, kPure * strain)) return std::nullopt;
   constexpr double kMmPerMetre = 1000.0;
   return WholeFinding{
       std::nullopt,
