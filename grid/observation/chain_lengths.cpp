@@ -21,10 +21,10 @@ ChainLengthReadings::ChainLengthReadings(std::vector<Place> places, bool ordered
                                          double noise_dof, std::optional<SheetPrior> sheet)
     : Observation(ordered, noise_dof), noise_(noise) {
   sheet_ = sheet;
-  sort(places, [](const Place& a, const Place& b) {
-    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
-           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
-  });
+  sort(places, ascending([](const Place& own) {
+         return std::tie(own.order, own.mark.x_mm, own.mark.y_mm, own.lengths.left_mm,
+                         own.lengths.right_mm);
+       }));
   take(std::move(places));
 }
 

@@ -13,8 +13,7 @@ Columns columns_of(const Observation& observation) {
 std::vector<Setting> settings_in(const Columns& columns) {
   std::vector<Setting> settings;
   if (columns.parameters) settings.assign(kMachineSettings.begin(), kMachineSettings.end());
-  if (columns.sheet)
-    settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+  if (columns.sheet) append_all(settings, model::kSheetSettings);
   return settings;
 }
 

@@ -31,12 +31,10 @@ struct Sorted {
 /// Holes by place and distances by their holes.
 Sorted sorted_set(const MeasuredHoles& set) {
   Sorted result{set, numbers_below(set.holes.size()), numbers_below(set.distances.size())};
-  sort(result.hole, [&](std::size_t a, std::size_t b) {
-    const Hole& x = set.holes[a];
-    const Hole& y = set.holes[b];
-    return std::tie(x.commanded.x_mm, x.commanded.y_mm, x.name) <
-           std::tie(y.commanded.x_mm, y.commanded.y_mm, y.name);
-  });
+  sort(result.hole, ascending([&](std::size_t i) {
+         const Hole& own = set.holes[i];
+         return std::tie(own.commanded.x_mm, own.commanded.y_mm, own.name);
+       }));
   Indices place(set.holes.size());
   for (const auto i : each_index(result.hole)) {
     place[result.hole[i]] = i;
