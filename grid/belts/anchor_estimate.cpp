@@ -51,13 +51,13 @@ observation::TapedDistance taped_between(const BeltMachine& machine, const BeltD
 }  // namespace
 
 observation::AtHole hole_at(const BeltMachine& in_force, BedPoint command) {
-  const FramePoint meant = to_frame(in_force, command);
+  FramePoint meant;
+  if (in_force.anchors_known) meant = to_frame(in_force, command);
   const ToolPosition at{meant.x_mm, meant.y_mm};
   const auto paid_out =
       make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
   constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
-  const bool is_reached = paid_out && in_force.anchors_known;
-  return {is_reached ? paid_out->lengths_mm : VectorXd::Constant(4, kNoLength),
+  return {paid_out ? paid_out->lengths_mm : VectorXd::Constant(4, kNoLength),
           {true, true, false, false},
           at};
 }
