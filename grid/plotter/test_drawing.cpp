@@ -78,8 +78,6 @@ std::string words_of(const TestDrawing& drawing, std::size_t measure) {
 
 namespace {
 
-using observation::DrawnMeasure;
-
 /// A straight line, in the machine's frame.
 struct DrawnLine {
   BedPoint from;
