@@ -52,7 +52,12 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     precision_ += block.precision();
     for (const auto p : each_index(own.places)) {
       const std::size_t point = readings.readings()[own.places[p]].index;
-      slots_[point] = Slot{blocks_.size(), as_index(p)};
+      const auto slot = as_index(p);
+      slots_[point] = Slot{blocks_.size(), slot};
+      equations_.residual_mm.segment<4>(row_of(point, Belt::tl)) =
+          block.line.residual_mm.segment<4>(4 * slot);
+      equations_.by_place.middleRows<4>(row_of(point, Belt::tl)) =
+          block.line.by_position.block<4, 2>(4 * slot, 2 * slot);
     }
     blocks_.push_back(std::move(block));
   }
