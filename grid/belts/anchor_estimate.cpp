@@ -29,11 +29,11 @@ double least_spread_mm(const MeasuredBelts& belts) {
   return std::max(kLeastSpreadMm, rounding_sigma_mm(lengths));
 }
 
-enum class Readings { all, those_that_fit };
-
-/// Right anchors right of the left ones, upper ones above the lower ones.
-bool is_upright_frame(const AnchorVector& a) {
-  return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
+/// The anchors; sound with right ones right of the left ones, upper ones above the lower ones.
+void take_anchors(const estimation::Estimate& estimate, AnchorFit& fit) {
+  const AnchorVector a = estimate.mechanism->values().head<kAnchorUnknowns>();
+  fit.state.anchors = a;
+  fit.is_sound = estimate.converged && a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
 /// The end of a taped distance, for any mechanism.
@@ -51,7 +51,8 @@ observation::TapedDistance taped_between(const BeltMachine& machine, const BeltD
 }  // namespace
 
 observation::AtHole hole_at(const BeltMachine& in_force, BedPoint command) {
-  const FramePoint meant = to_frame(in_force, command);
+  FramePoint meant;
+  if (in_force.anchors_known) meant = to_frame(in_force, command);
   const ToolPosition at{meant.x_mm, meant.y_mm};
   const auto paid_out =
       make_belt_mechanism(in_force)->predict(at, {}, model::Derivatives::by_position);
@@ -65,18 +66,15 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
   const BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
   const auto readings = readings_of(belts, fit.counting, fit.residual_sigma_mm);
   const observation::View view(mechanism_at(belts, fit.state));
-  Flags is_placed(belts.points.size(), false);
-  fit.state.places.resize(belts.points.size());
+  fit.state.places = mapped(belts.points, [&](const BeltPoint& point) {
+    return nearest_place(machine, point, kAllBelts);
+  });
   for (const auto& block : readings.blocks()) {
     const auto line = readings.block_line(view, block, false);
     for (std::size_t p = 0; line && p < block.places.size(); ++p) {
       const std::size_t point = readings.readings()[block.places[p]].index;
       fit.state.places[point] = {line->positions[p].x_mm, line->positions[p].y_mm};
-      is_placed[point] = true;
     }
-  }
-  for (const auto k : each_index(belts.points)) {
-    if (!is_placed[k]) fit.state.places[k] = nearest_place(machine, belts.points[k], kAllBelts);
   }
 }
 
@@ -101,17 +99,19 @@ Counting without_nowhere_points(const MeasuredBelts& belts, const AnchorVector& 
   return are_few ? fewer : counting;
 }
 
+/// Of a fit with more noise no reading is rejected; empty: of none.
+using MostNoise = std::optional<double>;
+
 /// Without distances.
 std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts, const AnchorVector& start,
-                                   Counting counting, Readings which,
-                                   double most_noise_mm = kPlausibleSpreadMm) {
-  if (which == Readings::those_that_fit) counting = without_nowhere_points(belts, start, counting);
+                                   Counting counting, MostNoise most_noise_mm = {}) {
+  if (most_noise_mm) counting = without_nowhere_points(belts, start, counting);
   AnchorFit fit{
       .state = {start, 0.0, {}}, .counting = std::move(counting), .residual_sigma_mm = 1.0};
   estimation::EstimationInput input = anchor_input(belts, fit);
-  if (which == Readings::those_that_fit)
+  if (most_noise_mm)
     input.reading_limits =
-        estimation::ReadingLimits{kBadReadingSigmas, kMostBadReadings, most_noise_mm};
+        estimation::ReadingLimits{kBadReadingSigmas, kMostBadReadings, *most_noise_mm};
   const auto estimate = estimation::estimate(input);
   if (!estimate) return std::nullopt;
   const auto& readings =
@@ -120,30 +120,25 @@ std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts, const AnchorVecto
     const std::size_t point = readings.readings()[readings.place_of(one.reading.unit)].index;
     fit.counting[point][kBelts.at(as_size(one.reading.reading))] = false;
   }
-  fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
+  take_anchors(*estimate, fit);
   fit.checks = checks_of(fit.counting);
   if (fit.checks > 0)
     fit.residual_sigma_mm = std::max(estimate->noise_factor, least_spread_mm(belts));
-  fit.is_sound = estimate->converged && is_upright_frame(fit.state.anchors);
   return fit;
 }
 
-std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
+/// With the distances, if there are any, and with the places; the noise is kept.
+std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
+  if (fit && !belts.distances.empty()) {
+    estimation::EstimationInput input = anchor_input(belts, *fit);
+    input.noise.knowledge = interp::NoiseKnowledge::exact;
+    const auto estimate = estimation::estimate(input);
+    if (!estimate) return std::nullopt;
+    take_anchors(*estimate, *fit);
+    fit->state.log_scale = estimate->mechanism->values()[kAnchorUnknowns];
+  }
   if (fit) place_all(belts, *fit);
   return fit;
-}
-
-/// With the distances; noise and places are kept.
-std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
-  if (!fit || belts.distances.empty()) return with_places(belts, std::move(fit));
-  estimation::EstimationInput input = anchor_input(belts, *fit);
-  input.noise.knowledge = interp::NoiseKnowledge::exact;
-  const auto estimate = estimation::estimate(input);
-  if (!estimate) return std::nullopt;
-  fit->state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
-  fit->state.log_scale = estimate->mechanism->values()[kAnchorUnknowns];
-  fit->is_sound = estimate->converged && is_upright_frame(fit->state.anchors);
-  return with_places(belts, std::move(fit));
 }
 
 /// A point from another frame, or with lost digits, distorts the fit of all others, and its four
@@ -163,7 +158,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
       fewer[k] = {};
-      auto without = fit_alone(belts, frame.state.anchors, std::move(fewer), Readings::all);
+      auto without = fit_alone(belts, frame.state.anchors, std::move(fewer));
       if (!without || without->checks < 1 || !without->is_sound) continue;
       if (!best || without->residual_sigma_mm < best->residual_sigma_mm) best = std::move(without);
     }
@@ -204,11 +199,11 @@ std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
 }
 
 /// From the likeliest start, without a tape. In an implausible fit every reading counts.
-std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
+std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, MostNoise most_noise_mm = {}) {
   const Counting all(belts.points.size(), kAllBelts);
   std::optional<AnchorFit> best;
   for (const AnchorVector& start : first_frames(belts)) {
-    auto fit = fit_alone(belts, start, all, which);
+    auto fit = fit_alone(belts, start, all, most_noise_mm);
     if (!fit) continue;
     if (!best || std::pair(!fit->is_sound, fit->residual_sigma_mm) <
                      std::pair(!best->is_sound, best->residual_sigma_mm)) {
@@ -293,12 +288,11 @@ estimation::EstimationInput anchor_input(const MeasuredBelts& belts, const Ancho
 
 std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts, const FrameState& state,
                                           const Counting& counting) {
-  return with_tape(belts,
-                   fit_alone(without_distances(belts), state.anchors, counting, Readings::all));
+  return with_tape(belts, fit_alone(without_distances(belts), state.anchors, counting));
 }
 
 std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts) {
-  return with_tape(belts, first_fit(without_distances(belts), Readings::all));
+  return with_tape(belts, first_fit(without_distances(belts)));
 }
 
 std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
@@ -306,14 +300,12 @@ std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
   const auto is_plausible = [](const AnchorFit& fit) {
     return fit.is_sound && fit.residual_sigma_mm <= kPlausibleSpreadMm;
   };
-  auto fit = first_fit(untaped, Readings::those_that_fit);
+  auto fit = first_fit(untaped, kPlausibleSpreadMm);
   if (!fit || is_plausible(*fit)) return with_tape(belts, std::move(fit));
   // If rejecting single readings does not make the frame plausible, reject whole points.
-  constexpr double kAny = kInfinity;
   const auto robust = [&untaped](const AnchorFit& from) {
     if (!from.is_sound) return from;
-    return fit_alone(untaped, from.state.anchors, from.counting, Readings::those_that_fit, kAny)
-        .value_or(from);
+    return fit_alone(untaped, from.state.anchors, from.counting, kInfinity).value_or(from);
   };
   AnchorFit less = robust(*fit);
   if (!is_plausible(less)) less = robust(without_gross_points(untaped, *fit));

@@ -39,7 +39,8 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
 std::shared_ptr<const Mechanism> mechanism_at(const MeasuredBelts& belts, const FrameState& state);
 
 /// A hole that was commanded with these anchors in force, from what the controller paid out. A command
-/// that cannot be reached has no lengths, and no mechanism has a position for it.
+/// that cannot be reached, or of which no anchors are known, has no lengths, and no mechanism has a
+/// position for it.
 observation::AtHole hole_at(const BeltMachine& in_force, BedPoint command);
 /// A distance as these belts predict it, with the points of the state; empty if a hole cannot be
 /// reached.

@@ -54,11 +54,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
                     belts::readings_of(belts, all).readings(), words_of_anchors());
   // More than three turns of an encoder: a different frame rather than a changed one.
   constexpr double kAnotherFrameMm = 130.0;
-  std::vector<double> residuals_mm;
-  if (check) {
-    for (const CheckResidual& one : check->residuals) residuals_mm.push_back(one.residual_mm);
-  }
-  if (!check || !(rms(residuals_mm) < kAnotherFrameMm)) {
+  if (!check || !(rms(mapped(check->residuals, &CheckResidual::residual_mm)) < kAnotherFrameMm)) {
     return failed(
         Reason::nowhere,
         "the new lengths do not fit these anchors: are they from this frame, and is \"lengths\" "

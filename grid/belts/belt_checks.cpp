@@ -20,20 +20,16 @@
 namespace chaintrue::grid {
 
 const std::array<std::vector<BeltPair>, 9>& belt_swaps() {
-  constexpr std::array<BeltPair, 6> kPairs = {{{Belt::tl, Belt::tr},
-                                               {Belt::bl, Belt::br},
-                                               {Belt::tl, Belt::bl},
-                                               {Belt::tr, Belt::br},
-                                               {Belt::tl, Belt::br},
-                                               {Belt::tr, Belt::bl}}};
-  static const auto kSwaps = [&] {
-    std::array<std::vector<BeltPair>, 9> swaps;
-    for (const auto k : each_index(kPairs)) {
-      swaps[k].push_back(kPairs[k]);
-      swaps[kPairs.size() + k / 2].push_back(kPairs[k]);
-    }
-    return swaps;
-  }();
+  using enum Belt;
+  static const std::array<std::vector<BeltPair>, 9> kSwaps = {{{{tl, tr}},
+                                                               {{bl, br}},
+                                                               {{tl, bl}},
+                                                               {{tr, br}},
+                                                               {{tl, br}},
+                                                               {{tr, bl}},
+                                                               {{tl, tr}, {bl, br}},
+                                                               {{tl, bl}, {tr, br}},
+                                                               {{tl, br}, {tr, bl}}}};
   return kSwaps;
 }
 
@@ -177,9 +173,7 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts, const Ancho
   std::vector<NowherePoint> result;
   const BeltMachine machine = with_anchors(belts.machine, frame.state.anchors);
   for (const auto k : each_index(belts.points)) {
-    int rejected = 0;
-    for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
-    if (rejected < 2) continue;
+    if (belts::readings_counting(frame.counting[k]) > 2) continue;
     const auto place = belts::nearest_place(machine, belts.points[k], kAllBelts);
     double residual_mm = 0.0;
     for (const Belt belt : kBelts) {
@@ -233,35 +227,6 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts, const A
 
 namespace {
 
-/// Where a tape ends, in the frame that the lengths alone make.
-std::optional<Vector2d> end_of(const BeltEnd& end, const MeasuredBelts& belts,
-                               const AnchorFit& frame) {
-  if (const auto* index = std::get_if<std::size_t>(&end)) {
-    if (*index >= frame.state.places.size()) return std::nullopt;
-    return vector_of(frame.state.places[*index]);
-  }
-  if (const auto* belt = std::get_if<Belt>(&end)) {
-    const auto anchor = with_anchors(belts.machine, frame.state.anchors).anchors[*belt];
-    return vector_of(anchor);
-  }
-  if (!belts.machine.anchors_known) return std::nullopt;
-  const FramePoint centre = centre_of(belts.machine);
-  const BedPoint at = std::get<CutHole>(end).commanded;
-  return Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
-}
-
-/// Each distance as the frame predicts it; empty if an end has no position.
-std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts,
-                                                      const AnchorFit& frame) {
-  std::vector<std::optional<double>> by_belts_mm;
-  for (const BeltDistance& distance : belts.distances) {
-    const auto from = end_of(distance.from, belts, frame);
-    const auto to = end_of(distance.to, belts, frame);
-    by_belts_mm.push_back(from && to ? std::optional((*to - *from).norm()) : std::nullopt);
-  }
-  return by_belts_mm;
-}
-
 /// One sigma of a predicted distance, mm.
 double sigma_of(const MeasuredBelts& belts, const FitDiagnostics& view,
                 const BeltDistance& distance) {
@@ -311,7 +276,14 @@ std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
   if (belts.distances.empty()) return {};
   const MeasuredBelts untaped = without_distances(belts);
   const FitDiagnostics view(untaped, frame);
-  const auto by_belts_mm = distances_by_belts(belts, frame);
+  const auto mechanism = belts::mechanism_at(untaped, frame.state);
+  // In the frame that the lengths alone make; empty if an end has no position.
+  const auto by_belts_mm =
+      mapped(belts.distances, [&](const BeltDistance& distance) -> std::optional<double> {
+        const auto line = belts::distance_at(untaped, *mechanism, frame.state, distance);
+        if (!line) return std::nullopt;
+        return line->predicted_mm;
+      });
   std::vector<DistanceQuestion> result;
   for (const auto i : each_index(belts.distances)) {
     const double taped_mm = belts.distances[i].distance_mm;

@@ -162,12 +162,7 @@ MechanismMap map_of(const BeltsFit& fit, const HolesWithBelts* holes, const Belt
           MeasuredArea(placing.measured(), domain_of(in_force))};
 }
 
-BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
-  return paying_out(holes != nullptr ? holes->machine : machine_in_force(fit));
-}
-
-}  // namespace
-
+/// The machine as stated before the fit.
 BeltMachine machine_in_force(const BeltsFit& fit) {
   AnchorVector stated;
   for (const Index i : each_below(kAnchorUnknowns)) {
@@ -177,6 +172,12 @@ BeltMachine machine_in_force(const BeltsFit& fit) {
   }
   return with_anchors(fit.machine, stated);
 }
+
+BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
+  return paying_out(holes != nullptr ? holes->machine : machine_in_force(fit));
+}
+
+}  // namespace
 
 BeltMachine paying_out(BeltMachine machine) {
   machine.lengths = model::BeltLengths::belt;

@@ -28,9 +28,6 @@
 
 namespace chaintrue::grid {
 
-/// The machine as stated before the fit. \throws std::invalid_argument if it was not stated.
-BeltMachine machine_in_force(const BeltsFit& fit);
-
 /// A machine whose upper lengths are the belts' own.
 BeltMachine paying_out(BeltMachine machine);
 

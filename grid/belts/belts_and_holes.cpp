@@ -230,8 +230,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
     const double alone = known.covariance(row, row);
     for (const Belt belt : kBelts) coordinate.variance_share[belt] *= covariance(row, row) / alone;
   }
-  const double factor = std::exp(state.frame.log_scale);
-  fit.scale = {factor, factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns)), {}};
+  fit.scale = scale_of(state.frame, covariance);
   if (measured.points.empty()) return;
   frame.state = state.frame;
   place_all(measured, frame);
@@ -245,10 +244,7 @@ void fill_frame(const MeasuredBelts& measured, const KnownFrame& known, const Ta
   // The factor found from the uncorrected readings is kept after correcting for causes.
   if (fit.causes.empty())
     fit.rms_mm = rms(std::vector<double>(there.residual_mm.begin(), there.residual_mm.end()));
-  for (const auto i : each_index(measured.distances)) {
-    fit.scale->residuals_mm.push_back(there.distance_residual[as_index(i)] *
-                                      measured.distances[i].sigma_mm);
-  }
+  fit.scale->residuals_mm = there.distance_residual_mm;
 }
 
 /// Covariance of x and, if present, of the displacement at its places; and the displacement.
@@ -264,12 +260,9 @@ MatrixXd posterior(const KnownFrame& known, const TapedState& state,
   if (smooth) {
     const MatrixXd kernel =
         displacement_kernel(state.rows.marks, state.rows.marks, state.noise.reach_mm);
-    for (const Index i : each_below(kernel.rows())) {
-      for (const Index j : each_below(kernel.cols())) {
-        const double shared = state.noise.size_mm * state.noise.size_mm * kernel(i, j);
-        prior.block<2, 2>(kFrameUnknowns + 2 * i, kFrameUnknowns + 2 * j) =
-            shared * Matrix2d::Identity();
-      }
+    for (const Index axis : {0, 1}) {
+      const auto own = Eigen::seq(kFrameUnknowns + axis, Eigen::last, Eigen::fix<2>);
+      prior(own, own) = state.noise.size_mm * state.noise.size_mm * kernel;
     }
     by_unknown.rightCols(moved) = g;
   }

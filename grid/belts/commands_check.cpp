@@ -74,9 +74,8 @@ std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts) {
     }
     found.median_mm[belt] = median(off);
   }
-  found.typical_mm = typical_mm(places, {});
   found.upper_mm = median(upper_mm);
-  found.swapped = swapped(places, found.typical_mm);
+  found.swapped = swapped(places, typical_mm(places, {}));
   return found;
 }
 

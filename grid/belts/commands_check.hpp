@@ -24,8 +24,7 @@ namespace chaintrue::grid {
 struct AgainstCommands {
   std::size_t places = 0;
   PerBelt<double> median_mm;  ///< of read less expected
-  double typical_mm = 0.0;    ///< median of the amounts, over all four belts
-  double upper_mm = 0.0;      ///< the same of the upper two
+  double upper_mm = 0.0;      ///< median of the amounts of the upper two
   /// Belts that, changed for one another, agree with the commands at least four times as well.
   std::optional<std::vector<BeltPair>> swapped;
 };

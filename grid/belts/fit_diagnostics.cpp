@@ -62,12 +62,10 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     blocks_.push_back(std::move(block));
   }
   covariance_ = linear::PivotedCholesky(precision_).inverse();
-  equations_.distance_residual.resize(std::ssize(belts.distances));
-  for (const auto i : each_index(belts.distances)) {
-    const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
-    equations_.distance_residual[as_index(i)] =
-        at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
-           : kInfinity;
+  for (const BeltDistance& distance : belts.distances) {
+    const auto at = distance_at(belts, *mechanism_, frame_.state, distance);
+    equations_.distance_residual_mm.push_back(at ? distance.distance_mm - at->predicted_mm
+                                                 : kInfinity);
   }
 }
 
@@ -173,19 +171,17 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
 }
 
 void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
-  double square = 0.0;
-  PerBelt<double> squares;
-  PerBelt<int> counts;
+  std::vector<double> all_mm;
+  PerBelt<std::vector<double>> counting_mm;
   for (const auto k : each_index(belts.points)) {
     FittedPlace place{view.frame().state.places[k], view.place_covariance_mm2(k), {}};
     std::vector<BadBeltReading> bad;
     for (const Belt belt : kBelts) {
       BeltResidual& residual = place.belts[belt];
       residual = view.residual(k, belt);
-      square += residual.residual_mm * residual.residual_mm;
+      all_mm.push_back(residual.residual_mm);
       if (residual.counts) {
-        squares[belt] += residual.residual_mm * residual.residual_mm;
-        ++counts[belt];
+        counting_mm[belt].push_back(residual.residual_mm);
       } else {
         bad.push_back({k, belt, residual.deleted_residual_mm});
       }
@@ -198,23 +194,10 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
     }
     fit.places.push_back(std::move(place));
   }
-  fit.rms_mm = std::sqrt(square / (4.0 * as_double(belts.points.size())));
-  for (const Belt belt : kBelts) {
-    fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
-  }
+  fit.rms_mm = rms(all_mm);
+  for (const Belt belt : kBelts) fit.rms_of_mm[belt] = rms(counting_mm[belt]);
   stable_sort(fit.bad,
               descending([](const BadBeltReading& one) { return std::abs(one.residual_mm); }));
-}
-
-void fill_scale(const MeasuredBelts& belts, const FitDiagnostics& view, const MatrixXd& covariance,
-                BeltsFit& fit) {
-  if (!view.has_scale()) return;
-  const double factor = std::exp(view.frame().state.log_scale);
-  fit.scale = {factor, factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns)), {}};
-  for (const auto i : each_index(belts.distances)) {
-    fit.scale->residuals_mm.push_back(view.equations().distance_residual[as_index(i)] *
-                                      belts.distances[i].sigma_mm);
-  }
 }
 
 /// Residuals of the lower belts of a point from the prediction by the upper ones; nothing if a belt
@@ -259,6 +242,13 @@ Indices in_order(const MeasuredBelts& belts) {
 
 }  // namespace
 
+BeltScale scale_of(const FrameState& state, const MatrixXd& covariance,
+                   std::vector<double> residuals_mm) {
+  const double factor = std::exp(state.log_scale);
+  return {factor, factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns)),
+          std::move(residuals_mm)};
+}
+
 BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
                     const MatrixXd& covariance) {
   BeltsFit fit;
@@ -268,7 +258,8 @@ BeltsFit fit_report(const MeasuredBelts& belts, const FitDiagnostics& view,
   fit.checks = as_int(view.frame().checks);
   fill_coordinates(belts, view, fit);
   fill_places(belts, view, fit);
-  fill_scale(belts, view, covariance, fit);
+  if (view.has_scale())
+    fit.scale = scale_of(view.frame().state, covariance, view.equations().distance_residual_mm);
   fit.one_left_out = predict_one_by_one(belts, view);
   return fit;
 }

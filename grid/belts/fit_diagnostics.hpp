@@ -45,7 +45,7 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
 /// Includes the residuals of the distances.
 struct FitResiduals : ReadingLines {
-  VectorXd distance_residual;  ///< in sigmas
+  std::vector<double> distance_residual_mm;  ///< taped less predicted
 };
 
 class FitDiagnostics {
@@ -126,6 +126,10 @@ class FitDiagnostics {
 // Assembles a BeltsFit from anchors, places and their covariances, with the error of predicting
 // the lower belts from the upper two at left-out places. Private to grid/belts and what reads its
 // fits.
+
+/// `covariance` as below; `residuals_mm` of the distances.
+BeltScale scale_of(const FrameState& state, const MatrixXd& covariance,
+                   std::vector<double> residuals_mm = {});
 
 /// Everything except the predictions of each half of the places by the other. `belts` and `view`
 /// use the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's

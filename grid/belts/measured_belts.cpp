@@ -59,15 +59,7 @@ std::vector<double> different_pulls(const MeasuredBelts& belts) {
 }
 
 std::string words_of(const BeltPull& pull) {
-  switch (pull.unit) {
-    case BeltPull::Unit::newton:
-      return fmt::format("{:g} N", pull.value);
-    case BeltPull::Unit::milliampere:
-      return fmt::format("{:g} mA", pull.value);
-    case BeltPull::Unit::relative:
-      break;
-  }
-  return fmt::format("{:g} times", pull.value);
+  return fmt::format("{:g} {}", pull.value, word_of(pull.unit, {"times", "N", "mA"}));
 }
 
 std::string words_of(const BeltEnd& end) {

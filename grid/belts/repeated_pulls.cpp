@@ -17,13 +17,6 @@ constexpr double kSamePlaceMm = 1.0;
 /// The repeatability of two consecutive readings is never better.
 constexpr double kLeastSigmaMm = 0.1;
 
-bool same_roles(const BeltPoint& a, const BeltPoint& b) {
-  for (const Belt belt : kBelts) {
-    if (is_pulled(a, belt) != is_pulled(b, belt)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts) {
@@ -31,7 +24,7 @@ std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts) {
   for (std::size_t k = 0; k + 1 < belts.points.size(); ++k) {
     const BeltPoint& first = belts.points[k];
     const BeltPoint& second = belts.points[k + 1];
-    if (!same_roles(first, second)) continue;
+    if (pulled_belts(first) != pulled_belts(second)) continue;
     RepeatedPull pull{k, k + 1, 0.0, 0.0};
     double held_square = 0.0, length_mm = 0.0;
     int held = 0, pulled = 0;

@@ -174,8 +174,7 @@ HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   Indices units;
   for (const auto& [part, readings] : parts_of<ChainLengthReadings>(session)) {
     for (const auto i : each_index(readings->places())) {
-      const NumberedPlace& place = session.places[part->first_place + i];
-      points.push_back({place.index, place.mark, place.lengths});
+      points.push_back(session.places[part->first_place + i]);
       units.push_back(part->first_unit + i);
     }
   }

@@ -154,11 +154,10 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   // Orders of different sessions are unrelated.
   const bool ordered = !so_far.ordered && all_of(grid.points, &MeasuredPoint::order);
   so_far.ordered = so_far.ordered || ordered;
-  std::vector<Place> places;
-  for (const LengthPoint& point : *lengths) {
-    const std::size_t index = first_index + point.index;
-    places.push_back({index, fmt::format("{}", index + 1), point.mark, point.lengths,
-                      grid.points[point.index].order.value_or(0), point.commanded});
+  std::vector<Place> places = *lengths;
+  for (Place& place : places) {
+    place.index += first_index;
+    place.name = fmt::format("{}", place.index + 1);
   }
   std::optional<observation::SheetPrior> sheet;
   if (grid.sheet) sheet = {grid.sheet->shift_mm, 1e-3 * grid.sheet->rotation_mrad};

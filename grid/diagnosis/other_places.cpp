@@ -105,8 +105,7 @@ VectorXd left_of(const Analysis& a, const Estimate& model, const ObservationSet&
 }
 
 Indices block_numbers(const ObservationSet& session) {
-  std::vector<LengthPoint> points;
-  for (const NumberedPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
+  const std::vector<LengthPoint> points(session.places.begin(), session.places.end());
   Indices number(points.size(), 0);
   const auto blocks = spatial_blocks(points);
   for (const auto b : each_index(blocks)) {

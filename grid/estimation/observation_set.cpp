@@ -18,7 +18,7 @@ void append(ObservationPart part, ObservationSet& set) {
   part.first_place = set.places.size();
   part.first_unit = set.units.size();
   for (const observation::Place& place : own.places()) {
-    set.places.push_back({number, place.index, place.mark, place.lengths, place.order});
+    set.places.push_back({place, number});
   }
   if (own.may_be_outlier()) {
     for (const observation::Unit& unit : own.units()) {

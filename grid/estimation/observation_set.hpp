@@ -57,12 +57,9 @@ struct ObservationPart {
   bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
-struct NumberedPlace {
+/// Its index is into the points, or the holes, of all files in their order.
+struct NumberedPlace : observation::Place {
   std::size_t part = 0;
-  std::size_t index = 0;  ///< into the points, or the holes, of all files in their order
-  MarkPoint mark;
-  ChainLengths lengths;
-  int order = 0;
 };
 
 struct NumberedUnit {

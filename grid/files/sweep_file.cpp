@@ -106,16 +106,8 @@ REQUIRED(repetitions, "Number of machines drawn for each combination.", integer(
 OPTIONAL(repeats, "Number of marks that are visited twice.", integer(0, 10'000))
 OPTIONAL(draw_settings, "Draw motors and zeros from the machine's uncertainty.")
 OPTIONAL(whole_bed, "Evaluate the map over the whole bed, not only the measured part.")
-FIELD(
-    computed, "evaluation", "Columns x rows of places where the map is compared with the truth.",
-    false, grid_size(1),
-    [](StatedSweep& stated, const GridLevel& size) {
-      stated.evaluation_columns = size.columns;
-      stated.evaluation_rows = size.rows;
-    },
-    [](const StatedSweep& stated) {
-      return GridLevel{stated.evaluation_columns, stated.evaluation_rows};
-    })
+OPTIONAL(evaluation, "Columns x rows of places where the map is compared with the truth.",
+         grid_size(1))
 OPTIONAL(grids, "Columns x rows of marks; a factor.", list(grid_size(2), 1))
 OPTIONAL(spacings, "Spacing of the marks; a factor.",
          list(in_order<synthetic::DesignKind>({"regular", "chebyshev"}), 1))

@@ -81,13 +81,10 @@ Transformation& add_of_holes(HoleTransformations& list, ProblemKind kind, std::s
   return own;
 }
 
-/// Where a hole was commanded, by what its numbers mean.
-using MeantPlace = std::function<BedPoint(BedPoint)>;
-
 void add_of_commands(HoleTransformations& list, ProblemKind kind, std::string sentence,
-                     const MeantPlace& meant) {
+                     const Affine& meant) {
   add_of_holes(list, kind, std::move(sentence), [meant](MeasuredHoles& set) {
-    for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
+    for (Hole& hole : set.holes) hole.commanded = meant.of(hole.commanded);
   });
 }
 
@@ -105,35 +102,25 @@ void add_units(HoleTransformations& list, Written written) {
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
                     unit.word, factor),
-        [=](BedPoint p) {
-          return BedPoint{p.x_mm * factor, p.y_mm * factor};
-        });
+        times(factor, factor));
   }
 }
 
 void add_axes(HoleTransformations& list) {
-  const auto add = [&](const char* sentence, const MeantPlace& meant) {
+  const std::pair<const char*, Affine> axes[] = {
+      {"the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
+       "counts to the right",
+       times(-1, 1)},
+      {"the sign of the holes' y_mm looks reversed, or the top and bottom edges exchanged: y_mm "
+       "counts up the sheet",
+       times(1, -1)},
+      {"the signs of the holes' x_mm and y_mm look reversed, or opposite edges exchanged: they "
+       "count to the right and up the sheet",
+       times(-1, -1)},
+      {"the holes' two columns look swapped: x_mm counts to the right, y_mm up the sheet",
+       swapped()}};
+  for (const auto& [sentence, meant] : axes)
     add_of_commands(list, ProblemKind::axes, sentence, meant);
-  };
-  add("the sign of the holes' x_mm looks reversed, or the left and right edges exchanged: x_mm "
-      "counts to the right",
-      [](BedPoint p) {
-        return BedPoint{-p.x_mm, p.y_mm};
-      });
-  add("the sign of the holes' y_mm looks reversed, or the top and bottom edges exchanged: y_mm "
-      "counts up the sheet",
-      [](BedPoint p) {
-        return BedPoint{p.x_mm, -p.y_mm};
-      });
-  add("the signs of the holes' x_mm and y_mm look reversed, or opposite edges exchanged: they "
-      "count to the right and up the sheet",
-      [](BedPoint p) {
-        return BedPoint{-p.x_mm, -p.y_mm};
-      });
-  add("the holes' two columns look swapped: x_mm counts to the right, y_mm up the sheet",
-      [](BedPoint p) {
-        return BedPoint{p.y_mm, p.x_mm};
-      });
 }
 
 /// A hole that was misnamed or written down wrongly makes every distance from it wrong.
@@ -293,11 +280,10 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   std::vector<Candidate> candidates =
       searched(sigma_mm, written_rows, list.take(),
                [](std::size_t row) { return fmt::format("{}", row + 1); });
-  const std::size_t tried = candidates.size() + 2 * set.distances.size();
   const Account plain = account_of(trend);
   Findings findings;
   findings.whole =
-      whole_finding(std::move(candidates), plain, tried, kOddDistances,
+      whole_finding(std::move(candidates), plain, 2 * set.distances.size(), kOddDistances,
                     fmt::format("half of the distances differ by more than {} from the commanded "
                                 "ones",
                                 length_in_words(median_mm)));

@@ -12,9 +12,10 @@
 namespace chaintrue::grid::input_checks {
 
 std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates, const Account& plain,
-                                          std::size_t tried, double odd_trend, std::string found) {
-  const double needed =
-      plain.log_likelihood + kHundredTimes + std::log(as_double(std::max<std::size_t>(tried, 1)));
+                                          std::size_t also_tried, double odd_trend,
+                                          std::string found) {
+  const std::size_t tried = std::max<std::size_t>(candidates.size() + also_tried, 1);
+  const double needed = plain.log_likelihood + kHundredTimes + std::log(as_double(tried));
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Account& account = candidate.account;
     return !(account.median_mm < kSoundMm) || !(account.prior_chi_square < odd_trend) ||

@@ -76,9 +76,10 @@ inline constexpr double kHundredTimes = 4.605;
 inline constexpr double kThreeTimes = 1.099;
 
 /// The likeliest candidate, if it makes the file sound and a hundred times likelier for each of the
-/// `tried`; and the next one, if nearly as good.
+/// candidates and what was also tried; and the next one, if nearly as good.
 std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates, const Account& plain,
-                                          std::size_t tried, double odd_trend, std::string found);
+                                          std::size_t also_tried, double odd_trend,
+                                          std::string found);
 
 /// "312 mm", "2.2 m"
 std::string length_in_words(double mm);

@@ -48,9 +48,14 @@ class Slips {
   std::vector<NumberError> slips_;
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr std::string_view kDigits = "0123456789";
+bool is_digit(char c) { return contains(kDigits, c); }
 
 void add_digit_errors(const std::string& text, Slips& slips) {
+  const auto replace = [&](std::size_t at, std::size_t count, const std::string& by,
+                           double penalty) {
+    slips.add_digits(std::string(text).replace(at, count, by), penalty);
+  };
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {
     const std::size_t j = text[i + 1] == '.' ? i + 2 : i + 1;
     if (j >= text.size() || text[i] == '.') continue;
@@ -60,24 +65,14 @@ void add_digit_errors(const std::string& text, Slips& slips) {
   }
   for (const auto i : each_index(text)) {
     if (!is_digit(text[i]) || text.size() < 2) continue;
-    std::string without = text;
-    without.erase(i, 1);
-    slips.add_digits(without, kDoubled);
+    replace(i, 1, "", kDoubled);
   }
   for (const auto i : each_index(text)) {
     if (!is_digit(text[i])) continue;
-    for (char c = '0'; c <= '9'; ++c) {
-      std::string other = text;
-      other[i] = c;
-      slips.add_digits(other, kWrong);
-    }
+    for (const char c : kDigits) replace(i, 1, {c}, kWrong);
   }
   for (std::size_t i = 0; i <= text.size(); ++i) {
-    for (char c = '0'; c <= '9'; ++c) {
-      std::string more = text;
-      more.insert(i, 1, c);
-      slips.add_digits(more, kDropped);
-    }
+    for (const char c : kDigits) replace(i, 0, {c}, kDropped);
   }
 }
 

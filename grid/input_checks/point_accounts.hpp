@@ -23,11 +23,11 @@ namespace chaintrue::grid::input_checks {
 
 using Place = std::optional<BedPoint>;
 
-/// Points with the places where the stated machine puts their readings.
-struct PlacedPoints {
-  std::vector<MeasuredPoint> points;
-  std::vector<Place> places;
+/// A point with the place where the stated machine puts its reading.
+struct PlacedPoint : MeasuredPoint {
+  Place place;
 };
+using PlacedPoints = std::vector<PlacedPoint>;
 
 /// \pre the grid has a possible machine.
 class PointAccounts {
@@ -64,41 +64,30 @@ class PointAccounts {
   }
 
   PlacedPoints placed(const std::vector<MeasuredPoint>& points) const {
-    PlacedPoints placed{points, {}};
-    for (const MeasuredPoint& point : points) placed.places.push_back(place_of(point));
-    return placed;
+    return mapped(points, [this](const MeasuredPoint& point) {
+      return PlacedPoint{point, place_of(point)};
+    });
   }
 
   /// Marks relative to places, for a second-degree trend. A missing place is a missing row.
   TrendRows rows(const PlacedPoints& placed) const {
-    const auto& [points, places] = placed;
-    const auto n = as_index(points.size());
+    const auto n = std::ssize(placed);
     TrendRows rows{MatrixXd::Zero(n, kPointBasis),
                    MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
     for (const Index i : each_below(n)) {
-      const auto k = as_size(i);
-      if (!places[k]) continue;
-      rows.basis.row(i) = basis_at(*places[k]);
-      rows.off_mm(i, 0) = points[k].mark.x_mm - places[k]->x_mm;
-      rows.off_mm(i, 1) = points[k].mark.y_mm - places[k]->y_mm;
+      const PlacedPoint& own = placed[as_size(i)];
+      if (!own.place) continue;
+      rows.basis.row(i) = basis_at(*own.place);
+      rows.off_mm.row(i) = difference(own.mark, *own.place);
     }
     return rows;
   }
 
   const VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
-  /// The trend's rotation of the marks to the left about the bed's middle.
-  double turn_rad(const RobustTrend& trend) const {
-    const double up_along_x = trend.coefficients(1, 1) / half_width_mm_;
-    const double right_along_y = trend.coefficients(2, 0) / half_height_mm_;
-    return 0.5 * (up_along_x - right_along_y);
-  }
-
-  /// The largest of its relative stretches along x and y and its skew.
-  double strain(const RobustTrend& trend) const {
-    const MatrixXd& c = trend.coefficients;
-    const double skew = 0.5 * (c(1, 1) / half_width_mm_ + c(2, 0) / half_height_mm_);
-    return std::max(
-        {std::abs(c(1, 0)) / half_width_mm_, std::abs(c(2, 1)) / half_height_mm_, std::abs(skew)});
+  /// d(trend)/d(place) in the bed's middle.
+  Matrix2d slope(const RobustTrend& trend) const {
+    const Vector2d half_mm(half_width_mm_, half_height_mm_);
+    return trend.coefficients.middleRows<2>(1).transpose() * half_mm.cwiseInverse().asDiagonal();
   }
 
   /// Residual of a mark at a place from a trend.

@@ -113,10 +113,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const Mea
                                         Written written) {
   const Indices looked = looked_at(grid.points.size());
   PlacedPoints few;
-  for (const std::size_t row : looked) {
-    few.points.push_back(all.points[row]);
-    few.places.push_back(all.places[row]);
-  }
+  for (const std::size_t row : looked) few.push_back(all[row]);
   const VectorXd& sigma_mm = accounts.prior_sigma_mm();
   const TrendRows few_rows = accounts.rows(few);
   const Account plain = account_of(robust_trend(few_rows, sigma_mm));
@@ -136,20 +133,18 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts, const Mea
     candidate.account.log_likelihood += scale;
     candidates.push_back(std::move(candidate));
   }
-  const std::size_t tried = candidates.size() + 2 * grid.points.size();
   auto finding = whole_finding(
-      std::move(candidates), plain, tried, kOddPoints,
+      std::move(candidates), plain, 2 * all.size(), kOddPoints,
       std::isfinite(plain.median_mm)
           ? fmt::format("half of the marks are more than {} from where the machine puts them",
                         length_in_words(plain.median_mm))
           : std::string("the machine cannot have these readings"));
   if (finding && finding->from_row.value_or(0) > 0) {
-    const auto from = as_index(*finding->from_row);
-    std::vector<double> residual_mm;
-    for (Index i = from; i < trend.residual_mm.size(); ++i)
-      residual_mm.push_back(trend.residual_mm[i]);
-    finding->found = fmt::format("half of the marks from here on are off by more than {}",
-                                 length_in_words(median(std::move(residual_mm))));
+    const VectorXd& residual_mm = trend.residual_mm;
+    finding->found = fmt::format(
+        "half of the marks from here on are off by more than {}",
+        length_in_words(
+            median({residual_mm.begin() + as_index(*finding->from_row), residual_mm.end()})));
   }
   if (finding) return finding;
   return strangers(account_of(trend), grid.points.size());
@@ -162,8 +157,11 @@ std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts, const Me
   constexpr double kLeastTurn = 8e-3;
   constexpr double kPure = 4.0;
   if (grid.sheet || grid.points.size() < kFewestStrangePoints) return std::nullopt;
-  const double turn = accounts.turn_rad(trend);
-  if (std::abs(turn) < std::max(kLeastTurn, kPure * accounts.strain(trend))) return std::nullopt;
+  const Matrix2d slope = accounts.slope(trend);
+  const double turn = 0.5 * (slope(1, 0) - slope(0, 1));  // of the marks, to the left
+  const double skew = 0.5 * (slope(1, 0) + slope(0, 1));
+  const double strain = std::max({std::abs(slope(0, 0)), std::abs(slope(1, 1)), std::abs(skew)});
+  if (std::abs(turn) < std::max(kLeastTurn, kPure * strain)) return std::nullopt;
   constexpr double kMmPerMetre = 1000.0;
   return WholeFinding{
       std::nullopt,
@@ -185,15 +183,12 @@ std::string capitalised(std::string text) {
 
 /// Distance between the marks of this row and of the row with the nearest reading.
 std::optional<double> apart_from_its_repeat(const PlacedPoints& placed, std::size_t row) {
-  const auto& [points, places] = placed;
+  const PlacedPoint& own = placed[row];
   std::optional<double> apart;
-  for (const auto j : each_index(points)) {
-    if (j == row || !places[j]) continue;
-    const BedPoint a = *places[row];
-    const BedPoint b = *places[j];
-    if (distance_mm(a, b) > kRepeatMm) continue;
-    const MarkPoint m = points[row].mark;
-    apart = distance_mm(m, points[j].mark);
+  for (const PlacedPoint& other : placed) {
+    if (&other == &own || !other.place || distance_mm(*own.place, *other.place) > kRepeatMm)
+      continue;
+    apart = distance_mm(own.mark, other.mark);
   }
   return apart;
 }
@@ -205,7 +200,7 @@ struct PointRows {
   const RobustTrend& trend;
 
   double off_of(const RowError& slip, std::size_t row) const {
-    const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : placed.places[row];
+    const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : placed[row].place;
     if (!place) return kInfinity;
     return accounts.off(trend, slip.meant.mark, *place).norm();
   }
@@ -223,7 +218,7 @@ struct PointRows {
         log_density_of(std::min(residual_mm(row), kLostMm), trend.scale_mm, 2) + kThreeTimes;
     std::optional<RowError> best;
     double most = as_it_is;
-    for (RowError& slip : row_errors(grid.points[row])) {
+    for (RowError& slip : row_errors(placed[row])) {
       const double likely = log_density_of(off_of(slip, row), trend.scale_mm, 2) - slip.penalty;
       if (likely <= most) continue;
       most = likely;
@@ -234,9 +229,9 @@ struct PointRows {
   /// Another row with a gross error such that the readings of the two fit each other's marks.
   std::optional<std::size_t> exchanged_with(std::size_t row, const Indices& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {
-      return placed.places[reading] &&
-             accounts.off(trend, grid.points[mark].mark, *placed.places[reading]).norm() <
-                 std::max(kSoundMm, 4.0 * trend.scale_mm);
+      const Place& place = placed[reading].place;
+      return place && accounts.off(trend, placed[mark].mark, *place).norm() <
+                          std::max(kSoundMm, 4.0 * trend.scale_mm);
     };
     for (const std::size_t other : gross) {
       if (other != row && fits(row, other) && fits(other, row)) return other;
@@ -246,7 +241,7 @@ struct PointRows {
 
   RowFinding words_of(std::size_t row, const RowError& slip) const {
     const std::string number = number_of(grid, row);
-    const MarkPoint mark = grid.points[row].mark;
+    const MarkPoint mark = placed[row].mark;
     const auto& motors = grid.machine->motors;
     if (!accounts.can_hold(mark)) {
       const bool is_above = mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm);
@@ -256,7 +251,7 @@ struct PointRows {
                           slip.question),
               true};
     }
-    const auto apart = placed.places[row] ? apart_from_its_repeat(placed, row) : std::nullopt;
+    const auto apart = placed[row].place ? apart_from_its_repeat(placed, row) : std::nullopt;
     const std::string what =
         apart && *apart > kGrossMm
             ? fmt::format("was measured twice, {} apart", length_in_words(*apart))

@@ -20,17 +20,15 @@ constexpr int kSteps = 20;
 /// A missing reading is uniform over a square, or a line, of this length.
 constexpr double kAnywhereMm = 2000.0;
 
-double median_of_finite(const VectorXd& values) {
+}  // namespace
+
+double RobustTrend::median_residual_mm() const {
   std::vector<double> finite;
-  for (const double value : values) {
-    if (std::isfinite(value)) finite.push_back(value);
+  for (const double one_mm : residual_mm) {
+    if (std::isfinite(one_mm)) finite.push_back(one_mm);
   }
   return finite.empty() ? kInfinity : median(std::move(finite));
 }
-
-}  // namespace
-
-double RobustTrend::median_residual_mm() const { return median_of_finite(residual_mm); }
 
 double log_density_of(double residual_mm, double scale_mm, Index components) {
   return -0.5 * as_double(components + 1) * std::log1p(std::pow(residual_mm / scale_mm, 2));

@@ -103,36 +103,33 @@ class Search {
   /// Tail, head and single rows, if their total gain suffices for a finding.
   std::vector<Part> parts_of(const Transformation& own, const std::vector<double>& gain) const {
     std::vector<Part> parts;
-    const auto offer = [&](RowSet rows, std::optional<std::size_t> from, std::string words,
+    const std::size_t n = count();
+    const auto offer = [&](auto has, std::optional<std::size_t> from, std::string words,
                            double penalty) {
+      RowSet rows = mapped(each_below(n), has);
       double sum = 0.0;
       for (const auto i : each_index(rows)) sum += rows[i] ? gain[i] : 0.0;
       if (sum > kHundredTimes) parts.push_back({std::move(rows), from, std::move(words), penalty});
     };
-    const std::size_t n = count();
     const double cuts = std::log(as_double(n));
     const std::size_t from = tail_of(gain);
-    RowSet tail(n, false);
-    std::fill(tail.begin() + static_cast<std::ptrdiff_t>(from), tail.end(), true);
-    if (is_part(n - from)) offer(std::move(tail), from, "from here on ", cuts);
+    if (is_part(n - from))
+      offer([&](std::size_t i) { return i >= from; }, from, "from here on ", cuts);
     if (own.of == Transformation::Of::tail) return parts;
     const std::size_t before = n - tail_of({gain.rbegin(), gain.rend()});
-    RowSet head(n, false);
-    std::fill(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(before), true);
     if (is_part(before))
-      offer(std::move(head), 0, fmt::format("from here to row {} ", name_of_row_(before - 1)),
-            cuts);
-    RowSet some(n, false);
-    std::vector<std::string> names;
+      offer([&](std::size_t i) { return i < before; }, 0,
+            fmt::format("from here to row {} ", name_of_row_(before - 1)), cuts);
+    const auto gains_by_it = [&](std::size_t i) { return gain[i] > 0.0; };
+    Words names;
     for (const std::size_t i : each_below(n)) {
-      some[i] = gain[i] > 0.0;
-      if (some[i]) names.push_back(name_of_row_(i));
+      if (gains_by_it(i)) names.push_back(name_of_row_(i));
     }
     const std::size_t taken = names.size();
     if (!is_part(taken) || as_double(taken) < kLeastShare * as_double(n)) return parts;
     constexpr std::size_t kMostNamed = 12;
     if (taken > kMostNamed) names.resize(kMostNamed);
-    offer(std::move(some), std::nullopt,
+    offer(gains_by_it, std::nullopt,
           fmt::format("in {} of {} rows ({}{}) ", taken, n, fmt::join(names, ", "),
                       taken > kMostNamed ? ", ..." : ""),
           cuts + log_choices(n, taken));

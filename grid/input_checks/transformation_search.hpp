@@ -24,9 +24,24 @@
 #include "grid/containers.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/robust_trend.hpp"
+#include "grid/plane_vectors.hpp"
 #include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
+
+/// What two coordinates, or two lengths, of a row mean: A x + b of what they say.
+struct Affine {
+  Matrix2d by = Matrix2d::Identity();
+  Vector2d plus = Vector2d::Zero();
+
+  template <class Pair>
+  Pair of(const Pair& written) const {
+    const Vector2d meant = by * vector_of(written) + plus;
+    return {meant.x(), meant.y()};
+  }
+};
+inline Affine times(double x, double y) { return {Vector2d(x, y).asDiagonal()}; }
+inline Affine swapped() { return {Matrix2d{{0, 1}, {1, 0}}}; }
 
 /// The affected rows of a file.
 using RowSet = Flags;

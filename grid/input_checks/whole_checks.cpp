@@ -9,47 +9,41 @@
 
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/plane_vectors.hpp"
+#include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
 
-MarkPoint scaled(MarkPoint mark, double x, double y) { return {x * mark.x_mm, y * mark.y_mm}; }
-
-void scale_reading(MeasuredPoint& point, double factor) {
-  if (point.lengths)
-    point.lengths = {factor * point.lengths->left_mm, factor * point.lengths->right_mm};
-  if (point.commanded)
-    point.commanded = BedPoint{factor * point.commanded->x_mm, factor * point.commanded->y_mm};
-}
-
-/// The list, by changes of marks, of readings or of their places.
+/// The list, by what marks and readings mean.
 class List : public Transformations<PlacedPoints> {
  public:
   List(const PointAccounts& accounts, const PlacedPoints& written)
       : Transformations(written, [&](const PlacedPoints& meant) { return accounts.rows(meant); }),
         accounts_(accounts) {}
 
-  Transformation& mark(ProblemKind kind, std::string sentence,
-                       const std::function<MarkPoint(MarkPoint, BedPoint)>& meant) {
+  Transformation& mark(ProblemKind kind, std::string sentence, const Affine& meant) {
     return add(kind, std::move(sentence), [meant](PlacedPoints& all, std::size_t row) {
-      MarkPoint& mark = all.points[row].mark;
-      mark = meant(mark, all.places[row].value_or(BedPoint{mark.x_mm, mark.y_mm}));
+      all[row].mark = meant.of(all[row].mark);
     });
   }
-  Transformation& reading(ProblemKind kind, std::string sentence,
-                          const std::function<void(MeasuredPoint&)>& meant) {
-    return add(kind, std::move(sentence),
-               [&accounts = accounts_, meant](PlacedPoints& all, std::size_t row) {
-                 meant(all.points[row]);
-                 all.places[row] = accounts.place_of(all.points[row]);
-               });
+  Transformation& reading(ProblemKind kind, std::string sentence, const Affine& lengths,
+                          const Affine& commands = {}, const Affine& marks = {}) {
+    return add(
+        kind, std::move(sentence),
+        [&accounts = accounts_, lengths, commands, marks](PlacedPoints& all, std::size_t row) {
+          PlacedPoint& own = all[row];
+          own.mark = marks.of(own.mark);
+          if (own.lengths) own.lengths = lengths.of(*own.lengths);
+          if (own.commanded) own.commanded = commands.of(*own.commanded);
+          own.place = accounts.place_of(own);
+        });
   }
   /// Each reading with the mark of another line.
   Transformation& order(ProblemKind kind, std::string sentence, const std::vector<Place>& others) {
     Transformation& own =
         add(kind, std::move(sentence),
-            [others](PlacedPoints& all, std::size_t row) { all.places[row] = others[row]; });
+            [others](PlacedPoints& all, std::size_t row) { all[row].place = others[row]; });
     own.of = Transformation::Of::all;
     return own;
   }
@@ -59,43 +53,33 @@ class List : public Transformations<PlacedPoints> {
 };
 
 void add_axes(List& list) {
-  struct Axes {
-    const char* sentence;
-    Matrix2d meant;
-  };
   constexpr const char* kQuarter =
       "the axes look rotated by a quarter turn: x_mm counts to the right, y_mm up the sheet";
-  const Axes axes[] = {
+  const std::pair<const char*, Affine> axes[] = {
       {"the sign of x_mm looks reversed: x_mm counts to the right of the bed's middle",
-       Matrix2d{{-1, 0}, {0, 1}}},
-      {"y_mm looks counted downwards: it counts up the sheet", Matrix2d{{1, 0}, {0, -1}}},
+       times(-1, 1)},
+      {"y_mm looks counted downwards: it counts up the sheet", times(1, -1)},
       {"the signs of x_mm and y_mm both look reversed: they count to the right and up the sheet",
-       Matrix2d{{-1, 0}, {0, -1}}},
-      {"the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
-       Matrix2d{{0, 1}, {1, 0}}},
-      {kQuarter, Matrix2d{{0, 1}, {-1, 0}}},
-      {kQuarter, Matrix2d{{0, -1}, {1, 0}}}};
-  for (const Axes& own : axes) {
-    list.mark(ProblemKind::axes, own.sentence, [meant = own.meant](MarkPoint m, BedPoint) {
-      const Vector2d at = meant * vector_of(m);
-      return MarkPoint{at.x(), at.y()};
-    });
-  }
+       times(-1, -1)},
+      {"the two columns look swapped: x_mm counts to the right, y_mm up the sheet", swapped()},
+      {kQuarter, {Matrix2d{{0, 1}, {-1, 0}}}},
+      {kQuarter, {Matrix2d{{0, -1}, {1, 0}}}}};
+  for (const auto& [sentence, meant] : axes) list.mark(ProblemKind::axes, sentence, meant);
 }
 
 /// Adds a minus in every row that needs one, if a column has none.
 void add_signs(List& list, const PlacedPoints& written) {
   const auto has_minus = [&](double MarkPoint::*axis) {
-    return any_of(written.points,
-                  [axis](const MeasuredPoint& point) { return point.mark.*axis < 0.0; });
+    return any_of(written, [axis](const PlacedPoint& point) { return point.mark.*axis < 0.0; });
   };
   const auto add = [&](bool of_x, bool of_y, const char* which, const char* where) {
-    list.mark(ProblemKind::minus_signs,
-              fmt::format("all minus signs{} seem to be missing: places {} need one", which, where),
-              [=](MarkPoint m, BedPoint p) {
-                return MarkPoint{of_x ? std::copysign(m.x_mm, p.x_mm) : m.x_mm,
-                                 of_y ? std::copysign(m.y_mm, p.y_mm) : m.y_mm};
-              });
+    list.add(ProblemKind::minus_signs,
+             fmt::format("all minus signs{} seem to be missing: places {} need one", which, where),
+             [=](PlacedPoints& all, std::size_t row) {
+               PlacedPoint& own = all[row];
+               if (own.place && of_x) own.mark.x_mm = std::copysign(own.mark.x_mm, own.place->x_mm);
+               if (own.place && of_y) own.mark.y_mm = std::copysign(own.mark.y_mm, own.place->y_mm);
+             });
   };
   const bool x = !has_minus(&MarkPoint::x_mm), y = !has_minus(&MarkPoint::y_mm);
   if (x) add(true, false, " of x_mm", "left of the bed's middle");
@@ -112,30 +96,26 @@ void add_units(List& list, bool reads_lengths, Written written) {
     list.mark(ProblemKind::other_unit,
               fmt::format("{} looks like inches, {} and the {} like mm: multiply {} by {:g}",
                           column, other, readings, column, kMmPerInch),
-              [x, y](MarkPoint m, BedPoint) { return scaled(m, x, y); });
+              times(x, y));
   };
   column_in_inches("x_mm", "y_mm", kMmPerInch, 1.0);
   column_in_inches("y_mm", "x_mm", 1.0, kMmPerInch);
-  for (const WrittenUnit& unit : kWrittenUnits) {
+  for (const auto& [word, mm] : kWrittenUnits) {
+    const Affine meant = times(mm, mm);
     list.mark(
         ProblemKind::other_unit,
         fmt::format("x_mm and y_mm look like {}, the {} like mm: multiply x_mm and y_mm by {:g}{}",
-                    unit.word, readings, unit.mm, unit.mm == kMmPerInch ? for_marks : ""),
-        [unit](MarkPoint m, BedPoint) { return scaled(m, unit.mm, unit.mm); });
-  }
-  for (const WrittenUnit& unit : kWrittenUnits) {
+                    word, readings, mm, mm == kMmPerInch ? for_marks : ""),
+        meant);
     list.reading(
         ProblemKind::other_unit,
         fmt::format("the {0} look like {1}, x_mm and y_mm like mm: multiply the {0} by {2:g}",
-                    readings, unit.word, unit.mm),
-        [unit](MeasuredPoint& point) { scale_reading(point, unit.mm); });
+                    readings, word, mm),
+        meant, meant);
     list.reading(ProblemKind::other_unit,
-                 fmt::format("these look like {}: multiply all of them by {:g}{}", unit.word,
-                             unit.mm, unit.mm == kMmPerInch ? for_all : ""),
-                 [unit](MeasuredPoint& point) {
-                   scale_reading(point, unit.mm);
-                   point.mark = scaled(point.mark, unit.mm, unit.mm);
-                 });
+                 fmt::format("these look like {}: multiply all of them by {:g}{}", word, mm,
+                             mm == kMmPerInch ? for_all : ""),
+                 meant, meant, meant);
   }
 }
 
@@ -154,9 +134,7 @@ void add_shifts(List& list, bool reads_lengths) {
             fmt::format("all {} look {:g} mm too {}: was {}, or are the machine's measures off by "
                         "that amount?",
                         what, by_mm, sign > 0.0 ? "small" : "large", why),
-            [=](MarkPoint m, BedPoint) {
-              return MarkPoint{m.x_mm + sign * by_mm * x, m.y_mm + sign * by_mm * y};
-            });
+            {.plus = sign * by_mm * Vector2d(x, y)});
         own.is_doubtful = reads_lengths;
         if (by_mm == kMmPerInch) own.of = Transformation::Of::part;
       };
@@ -171,10 +149,21 @@ void add_shifts(List& list, bool reads_lengths) {
 struct Origin {
   std::string from;  ///< "the left motor"; empty: the bed's middle
   std::string edge;  ///< of the bed: "left"
-  std::string way;   ///< ", to the left" or ", down" where it counts that way
   double at_mm = 0.0;
+  std::string way;  ///< ", to the left" or ", down" where it counts that way
   double sign = 1.0;
 };
+using Origins = std::vector<Origin>;
+
+/// Each also counted `back`.
+Origins both_ways(const Origins& some, const char* back) {
+  Origins all;
+  for (const Origin& own : some) {
+    all.push_back(own);
+    all.push_back({own.from, own.edge, own.at_mm, back, -1.0});
+  }
+  return all;
+}
 
 std::string origin_in_words(const Origin& x, const Origin& y) {
   if (!x.edge.empty() && !y.edge.empty()) {
@@ -190,46 +179,30 @@ std::string origin_in_words(const Origin& x, const Origin& y) {
 
 /// Edges and corners of the bed, and motors.
 void add_origins(List& list, const Machine& machine) {
-  const auto both_ways = [](std::vector<Origin>& list_of, Origin own, const char* back) {
-    list_of.push_back(own);
-    own.way = back;
-    own.sign = -1.0;
-    list_of.push_back(std::move(own));
-  };
   const auto add = [&](const Origin& x, const Origin& y) {
     list.mark(ProblemKind::constant_offset,
               origin_in_words(x, y) + ": they count from the bed's middle, to the right and up",
-              [x, y](MarkPoint m, BedPoint) {
-                return MarkPoint{x.at_mm + x.sign * m.x_mm, y.at_mm + y.sign * m.y_mm};
-              });
+              {times(x.sign, y.sign).by, {x.at_mm, y.at_mm}});
   };
-  const auto group = [&](const std::vector<Origin>& xs, const std::vector<Origin>& ys) {
+  const auto group = [&](const Origins& left_or_right, const Origins& up_or_down) {
+    const Origins xs = both_ways(left_or_right, ", to the left");
+    const Origins ys = both_ways(up_or_down, ", down");
     for (const Origin& x : xs) add(x, {});
     for (const Origin& y : ys) add({}, y);
     for (const Origin& x : xs)
       for (const Origin& y : ys) add(x, y);
   };
   const double right = 0.5 * machine.bed.width_mm, top = 0.5 * machine.bed.height_mm;
-  std::vector<Origin> xs, ys;
-  both_ways(xs, {"the bed's left edge", "left", "", -right}, ", to the left");
-  both_ways(xs, {"the bed's right edge", "right", "", right}, ", to the left");
-  both_ways(ys, {"the bed's upper edge", "upper", "", top}, ", down");
-  both_ways(ys, {"the bed's lower edge", "lower", "", -top}, ", down");
-  group(xs, ys);
-  xs.clear();
-  ys.clear();
-  const auto& motors = machine.motors;
-  both_ways(xs, {"the left motor", "", "", motors.left.x_mm}, ", to the left");
-  both_ways(xs, {"the right motor", "", "", motors.right.x_mm}, ", to the left");
-  both_ways(ys, {"the motors", "", "", 0.5 * (motors.left.y_mm + motors.right.y_mm)}, ", down");
-  group(xs, ys);
+  group({{"the bed's left edge", "left", -right}, {"the bed's right edge", "right", right}},
+        {{"the bed's upper edge", "upper", top}, {"the bed's lower edge", "lower", -top}});
+  const auto& [left_motor, right_motor] = machine.motors;
+  group({{"the left motor", "", left_motor.x_mm}, {"the right motor", "", right_motor.x_mm}},
+        {{"the motors", "", 0.5 * (left_motor.y_mm + right_motor.y_mm)}});
 }
 
 void add_lengths(List& list) {
   list.reading(ProblemKind::sides_swapped, "the columns left_mm and right_mm look swapped",
-               [](MeasuredPoint& point) {
-                 if (point.lengths) std::swap(point.lengths->left_mm, point.lengths->right_mm);
-               });
+               swapped());
   const auto longer = [&](double left_mm, double right_mm, std::string_view what, double by_mm) {
     for (const double sign : {1.0, -1.0}) {
       list.reading(
@@ -237,11 +210,7 @@ void add_lengths(List& list) {
           fmt::format("{} look {:g} mm too {}: they count from the sprocket's 12 o'clock; was the "
                       "tape held at another mark?",
                       what, by_mm, sign > 0.0 ? "small" : "large"),
-          [=](MeasuredPoint& point) {
-            if (!point.lengths) return;
-            point.lengths->left_mm += sign * left_mm;
-            point.lengths->right_mm += sign * right_mm;
-          });
+          {.plus = sign * Vector2d(left_mm, right_mm)});
     }
   };
   for (const double by_mm : {kTapeMarkMm, kMmPerFoot}) {
@@ -253,27 +222,21 @@ void add_lengths(List& list) {
 
 /// "lengths" or "commands".
 std::string_view readings_of(const PlacedPoints& written) {
-  return written.points.front().lengths ? "lengths" : "commands";
+  return written.front().lengths ? "lengths" : "commands";
 }
 
 /// Assigns every mark to its nearest place, if this uses each place once.
 std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
   std::vector<Place> nearest;
-  Flags taken(written.places.size(), false);
-  for (const MeasuredPoint& point : written.points) {
-    std::optional<std::size_t> best;
-    double least = 0.0;
-    for (const auto j : each_index(written.places)) {
-      const Place& place = written.places[j];
-      if (!place || taken[j]) continue;
-      const double apart = distance_mm(point.mark, *place);
-      if (best && apart >= least) continue;
-      best = j;
-      least = apart;
-    }
-    if (!best) return std::nullopt;
-    taken[*best] = true;
-    nearest.push_back(written.places[*best]);
+  std::vector<Place> left = mapped(written, &PlacedPoint::place);
+  for (const PlacedPoint& point : written) {
+    const auto apart = [&](const Place& place) {
+      return place ? distance_mm(point.mark, *place) : kInfinity;
+    };
+    const auto best = min_element(left, ascending(apart));
+    if (!*best) return std::nullopt;
+    nearest.push_back(*best);
+    left.erase(best);
   }
   return nearest;
 }
@@ -283,7 +246,7 @@ std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
 std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                                                   const MeasuredGrid& grid,
                                                   const PlacedPoints& written, Written as) {
-  const bool reads_lengths = any_of(written.points, &MeasuredPoint::lengths);
+  const bool reads_lengths = any_of(written, &PlacedPoint::lengths);
   List list(accounts, written);
   add_signs(list, written);
   add_axes(list);
@@ -298,24 +261,25 @@ std::vector<Transformation> point_transformations(const PointAccounts& accounts,
                 "the {} belong to the marks of other lines: are the two lists sorted differently?",
                 readings_of(written)),
             *nearest)
-        .penalty = std::lgamma(as_double(written.points.size()) + 1.0);  // orders
+        .penalty = std::lgamma(as_double(written.size()) + 1.0);  // orders
   }
   return list.take();
 }
 
 std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
                                                  const PlacedPoints& written) {
-  const auto n = static_cast<std::ptrdiff_t>(written.places.size());
+  std::vector<Place> places = mapped(written, &PlacedPoint::place);
+  const auto n = std::ssize(places);
   List list(accounts, written);
   for (const std::ptrdiff_t by : {-1, 1}) {
     std::vector<Place> slipped;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
       const bool is_there = i + by >= 0 && i + by < n;
-      slipped.push_back(is_there ? written.places[as_size(i + by)] : std::nullopt);
+      slipped.push_back(is_there ? places[as_size(i + by)] : std::nullopt);
     }
     list.order(ProblemKind::row_slip,
                fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
-                           written.points.front().lengths ? "lengths" : "command",
+                           written.front().lengths ? "lengths" : "command",
                            by < 0 ? "before" : "after",
                            by < 0 ? "written twice, or missing from the other columns"
                                   : "missing, or written twice in the other columns"),
@@ -325,7 +289,7 @@ std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
   list.order(ProblemKind::other_order,
              fmt::format("one of the two lists, marks and {}, seems to be in reverse order",
                          readings_of(written)),
-             {written.places.rbegin(), written.places.rend()});
+             {places.rbegin(), places.rend()});
   return list.take();
 }
 

@@ -2,6 +2,7 @@
 #include "grid/observation/belt_lengths.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "grid/precondition.hpp"
 
@@ -52,58 +53,49 @@ BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places, bool 
 
 /// Blocks: places with the distances between them, joined until no distance leads out of one.
 void BeltLengthReadings::join_places() {
-  auto root = numbers_below(readings_.size());
-  const auto root_of = [&root](std::size_t place) {
-    while (root[place] != place) place = root[place] = root[root[place]];
-    return place;
-  };
   const auto is_found = [this](std::size_t place) {
     return readings_[place].known || readings_[place].counted() >= 2;
   };
-  constexpr auto none = as_size(-1);
-  Indices number_of(readings_.size(), none);
-  for (std::size_t i = 0; i < readings_.size() && !distances_.empty(); ++i) {
-    if (number_of.size() <= readings_[i].index) number_of.resize(readings_[i].index + 1, none);
-    number_of[readings_[i].index] = i;
-  }
-  std::vector<std::optional<std::size_t>> block_place;  // of each distance; none: of no place
-  Flags is_left_out;
-  for (TapedDistance& distance : distances_) {
-    std::optional<std::size_t> at;
-    bool left_out = false;
-    for (TapeEnd* end : {&distance.from, &distance.to}) {
+  std::map<std::size_t, std::size_t> place_of_index;
+  for (const auto i : each_index(readings_)) place_of_index[readings_[i].index] = i;
+  Indices first = numbers_below(readings_.size());  // of the places found with each
+  // Of each distance that counts, a place at its end; places_.size(): it ends at none.
+  std::vector<std::pair<std::size_t, std::size_t>> ends_at;
+  for (const auto k : each_index(distances_)) {
+    std::size_t at = readings_.size();
+    bool counts = true;
+    for (TapeEnd* end : {&distances_[k].from, &distances_[k].to}) {
       auto* place = std::get_if<AtPlace>(end);
       if (place == nullptr) continue;
-      place->index = number_of.at(place->index);
-      left_out = left_out || place->index == none || !is_found(place->index);
-      if (left_out) continue;
-      if (readings_[place->index].known || readings_[place->index].about)
-        throw precondition("a distance to point {}, whose position is given",
-                           readings_[place->index].name);
-      if (at) root[root_of(place->index)] = root_of(*at);
+      const auto number = place_of_index.find(place->index);
+      counts = counts && number != place_of_index.end() && is_found(number->second);
+      if (!counts) continue;
+      place->index = number->second;
+      const LengthsAtPlace& own = readings_[place->index];
+      if (own.known || own.about)
+        throw precondition("a distance to point {}, whose position is given", own.name);
+      if (at < first.size()) {
+        const auto [low, high] = std::minmax({first[at], first[place->index]});
+        std::replace(first.begin(), first.end(), high, low);
+      }
       at = place->index;
     }
-    block_place.push_back(at);
-    is_left_out.push_back(left_out);
+    if (counts) ends_at.emplace_back(k, at);
   }
-  block_of_.assign(readings_.size(), none);
-  Indices block_of_root(readings_.size(), none);
+  Indices block_of(readings_.size());  // by its first place
   for (const auto i : each_index(readings_)) {
     if (!is_found(i)) continue;
-    std::size_t& block = block_of_root[root_of(i)];
-    if (block == none) {
-      block = blocks_.size();
+    if (first[i] == i) {
+      block_of[i] = blocks_.size();
       blocks_.emplace_back();
     }
-    blocks_[block].places.push_back(i);
-    block_of_[i] = block;
+    blocks_[block_of[first[i]]].places.push_back(i);
   }
-  for (const auto k : each_index(distances_)) {
-    if (is_left_out[k]) continue;
-    if (block_place[k]) {
-      blocks_[block_of_[*block_place[k]]].distances.push_back(k);
+  for (const auto& [distance, place] : ends_at) {
+    if (place == readings_.size()) {
+      blocks_.push_back({{}, {distance}});
     } else {
-      blocks_.push_back({{}, {k}});
+      blocks_[block_of[first[place]]].distances.push_back(distance);
     }
   }
 }

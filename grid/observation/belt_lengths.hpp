@@ -138,7 +138,6 @@ class BeltLengthReadings final : public Observation {
   std::vector<TapedDistance> distances_;
   std::vector<Block> blocks_;
   Indices first_unit_;  ///< of each block
-  Indices block_of_;    ///< of each place; blocks_.size(): of none
   Indices place_of_unit_;
   BeltNoise noise_;
 };

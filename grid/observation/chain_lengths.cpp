@@ -21,10 +21,10 @@ ChainLengthReadings::ChainLengthReadings(std::vector<Place> places, bool ordered
                                          double noise_dof, std::optional<SheetPrior> sheet)
     : Observation(ordered, noise_dof), noise_(noise) {
   sheet_ = sheet;
-  sort(places, [](const Place& a, const Place& b) {
-    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
-           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
-  });
+  sort(places, ascending([](const Place& own) {
+         return std::tie(own.order, own.mark.x_mm, own.mark.y_mm, own.lengths.left_mm,
+                         own.lengths.right_mm);
+       }));
   take(std::move(places));
 }
 
@@ -48,12 +48,8 @@ tl::expected<VectorXd, Unreachable> ChainLengthReadings::predicted(const View& v
     return tl::unexpected(mechanism_failure(lengths.error().reason).at(lengths.error().place));
   VectorXd all(rows());
   for (const auto i : each_index(*lengths)) {
-    ChainLengths own = (*lengths)[i];
-    if (view.correction != nullptr) {
-      own = view.correction->at(places_[i].mark, own, Matrix2d::Zero()).lengths;
-    }
-    const auto row = 2 * as_index(i);
-    all.segment<2>(row) = vector_of(own);
+    all.segment<2>(2 * as_index(i)) =
+        vector_of(view.corrected(places_[i].mark, (*lengths)[i], Matrix2d::Zero()).lengths);
   }
   return all;
 }
@@ -67,24 +63,13 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.chains().at(view.sheet.to_bed(place));
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()).at(i));
-    ChainPlaceState state{*reading, places_[i].mark,
-                          reading->position_jacobian * view.sheet.rotation()};
-    ChainLengths lengths = reading->lengths;
-    if (view.correction != nullptr) {
-      const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
-      lengths = corrected.lengths;
-      state.by_mark = corrected.by_mark;
-      state.by_length = corrected.by_length;
-    }
+    const ChainPlaceState state = place_state(view, *reading, places_[i].mark);
     const auto row = 2 * as_index(i);
-    line.predicted.segment<2>(row) = vector_of(lengths);
+    line.predicted.segment<2>(row) = vector_of(state.lengths);
     line.by_setting.middleRows<2>(row) =
         state.by_length.asDiagonal() * lengths_by_setting(view, *reading, place, settings);
-    UnitState unit;
-    unit.covariance = covariance_of(noise_, state.by_mark);
-    unit.places.push_back({i, Matrix2d::Identity()});
-    line.places.push_back(std::move(state));
-    line.units.push_back(std::move(unit));
+    line.units.push_back({covariance_of(noise_, state.by_mark), {{i, Matrix2d::Identity()}}});
+    line.places.push_back(state);
   }
   return line;
 }

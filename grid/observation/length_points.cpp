@@ -26,7 +26,7 @@ tl::expected<std::vector<LengthPoint>, std::string> length_points(const Measured
   std::vector<LengthPoint> points;
   for (const auto i : each_index(grid.points)) {
     const MeasuredPoint& point = grid.points[i];
-    LengthPoint result{i, point.mark, {}, std::nullopt};
+    LengthPoint result{i, std::to_string(i + 1), point.mark, {}, point.order.value_or(0)};
     if (point.lengths) {
       result.lengths = *point.lengths;
     } else {
@@ -47,14 +47,9 @@ tl::expected<std::vector<LengthPoint>, std::string> length_points(const Measured
 observation::ChainLengthReadings chain_length_readings(
     const std::vector<LengthPoint>& points, observation::PointNoise noise, double noise_dof,
     const std::optional<SheetUncertainty>& sheet) {
-  std::vector<observation::Place> places;
-  for (const LengthPoint& point : points) {
-    places.push_back({point.index, std::to_string(point.index + 1), point.mark, point.lengths, 0});
-  }
   std::optional<observation::SheetPrior> prior;
   if (sheet) prior = observation::SheetPrior{sheet->shift_mm, 1e-3 * sheet->rotation_mrad};
-  return observation::ChainLengthReadings::in_given_order(std::move(places), false, noise,
-                                                          noise_dof, prior);
+  return observation::ChainLengthReadings::in_given_order(points, false, noise, noise_dof, prior);
 }
 
 std::vector<Indices> repeat_groups(const std::vector<LengthPoint>& points) {

@@ -16,13 +16,7 @@
 namespace chaintrue::grid {
 
 /// A point with its lengths, however they were given.
-struct LengthPoint {
-  std::size_t index = 0;  ///< into the grid's points
-  MarkPoint mark;
-  ChainLengths lengths;
-  /// The command to the controller, if the lengths come from one.
-  std::optional<BedPoint> commanded = std::nullopt;
-};
+using LengthPoint = observation::Place;
 
 /// Every point's lengths. A point that gives a command has the lengths that the machine's
 /// controller pays out for it. Fails with a sentence where that cannot be reached, or no controller

@@ -5,21 +5,18 @@
 
 #include <algorithm>
 
+#include "grid/plane_vectors.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
 bool same(const MeasuredPoint& a, const MeasuredPoint& b) {
-  const auto same_lengths = [&] {
-    return a.lengths->left_mm == b.lengths->left_mm && a.lengths->right_mm == b.lengths->right_mm;
+  const auto agree = [](const auto& x, const auto& y) {
+    return x.has_value() == y.has_value() && (!x || vector_of(*x) == vector_of(*y));
   };
-  const auto same_command = [&] {
-    return a.commanded->x_mm == b.commanded->x_mm && a.commanded->y_mm == b.commanded->y_mm;
-  };
-  return a.mark.x_mm == b.mark.x_mm && a.mark.y_mm == b.mark.y_mm &&
-         a.lengths.has_value() == b.lengths.has_value() && (!a.lengths || same_lengths()) &&
-         a.commanded.has_value() == b.commanded.has_value() && (!a.commanded || same_command());
+  return vector_of(a.mark) == vector_of(b.mark) && agree(a.lengths, b.lengths) &&
+         agree(a.commanded, b.commanded);
 }
 
 bool same(const HoleDistance& a, const HoleDistance& b) {

@@ -13,8 +13,7 @@ Columns columns_of(const Observation& observation) {
 std::vector<Setting> settings_in(const Columns& columns) {
   std::vector<Setting> settings;
   if (columns.parameters) settings.assign(kMachineSettings.begin(), kMachineSettings.end());
-  if (columns.sheet)
-    settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+  if (columns.sheet) append_all(settings, model::kSheetSettings);
   return settings;
 }
 
@@ -37,6 +36,11 @@ MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance
     row += n;
   }
   return covariance;
+}
+
+ChainPlaceState place_state(const View& view, const model::PointReading& reading, MarkPoint mark) {
+  return {view.corrected(mark, reading.lengths, reading.position_jacobian * view.sheet.rotation()),
+          reading, mark};
 }
 
 Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading, MarkPoint place,

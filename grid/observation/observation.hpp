@@ -127,6 +127,13 @@ struct View {
     return *own;
   }
 
+  /// What is read at a mark where the mechanism alone has these lengths, and their derivative by it.
+  LengthCorrection::At corrected(MarkPoint mark, ChainLengths lengths,
+                                 const Matrix2d& by_mark) const {
+    if (correction == nullptr) return {lengths, by_mark};
+    return correction->at(mark, lengths, by_mark);
+  }
+
   std::shared_ptr<const Mechanism> mechanism;
   SheetPlacement sheet;
   const LengthCorrection* correction = nullptr;
@@ -139,14 +146,12 @@ struct Columns {
   bool sheet = false;
 };
 
-/// A place of two chains for a view.
-struct ChainPlaceState {
+/// A place of two chains for a view: what is read there, and whence it comes.
+struct ChainPlaceState : LengthCorrection::At {
   model::PointReading reading;  ///< of the machine alone
   MarkPoint mark;               ///< on the sheet; for a hole, where the machine puts it
-  Matrix2d by_mark;             ///< d(L, R)/d(mark), corrected
-  /// d(corrected)/d(the machine's own lengths), a chain each.
-  Vector2d by_length = Vector2d::Ones();
 };
+ChainPlaceState place_state(const View& view, const model::PointReading& reading, MarkPoint mark);
 
 /// How the chains at a place move a unit: D_i, rows x 2.
 struct PlaceColumns {
@@ -279,8 +284,8 @@ const std::vector<const Kind*>& kinds();
 /// C of all units and, separately, B diag(sigma^2) B'.
 MatrixXd marginal_covariance(const Linearisation& line, const VectorXd& nuisance_sigma);
 
-/// How settings of two chains move the lengths at a place, 2 x p; `place` is the requested place on
-/// the sheet, with the machine's effects of the paper removed.
+/// How settings of two chains move the machine's own lengths at a place, 2 x p; `place` is the
+/// requested place on the sheet, with the machine's effects of the paper removed.
 Matrix2Xd lengths_by_setting(const View& view, const model::PointReading& reading, MarkPoint place,
                              const std::vector<Setting>& settings);
 

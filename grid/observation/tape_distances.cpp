@@ -31,12 +31,10 @@ struct Sorted {
 /// Holes by place and distances by their holes.
 Sorted sorted_set(const MeasuredHoles& set) {
   Sorted result{set, numbers_below(set.holes.size()), numbers_below(set.distances.size())};
-  sort(result.hole, [&](std::size_t a, std::size_t b) {
-    const Hole& x = set.holes[a];
-    const Hole& y = set.holes[b];
-    return std::tie(x.commanded.x_mm, x.commanded.y_mm, x.name) <
-           std::tie(y.commanded.x_mm, y.commanded.y_mm, y.name);
-  });
+  sort(result.hole, ascending([&](std::size_t i) {
+         const Hole& own = set.holes[i];
+         return std::tie(own.commanded.x_mm, own.commanded.y_mm, own.name);
+       }));
   Indices place(set.holes.size());
   for (const auto i : each_index(result.hole)) {
     place[result.hole[i]] = i;
@@ -173,7 +171,12 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
     result.units_.push_back({row, 1, k});
   }
   result.sheet_ = sheet_measured(result.set_);
-  result.state_nuisances();
+  const MeasuredHoles& own = result.set_;
+  const Index of_holes = 2 * std::ssize(own.holes);
+  result.nuisance_sigma_.resize(3 + of_holes);
+  result.nuisance_sigma_ << own.sheet.size_sigma_mm, own.sheet.size_sigma_mm,
+      tape_zero_sigma_mm(own.tape), VectorXd::Constant(of_holes, own.hole_sigma_mm);
+  result.nuisance_sigma_ = result.nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
   return result;
 }
 
@@ -244,44 +247,27 @@ tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(
   std::vector<ChainPlaceState> states;
   for (const auto i : each_index(places_)) {
     const ChainLengths paid_out = places_[i].lengths;
-    BedPoint start = identity_placement(places_[i].mark);
+    MarkPoint mark = places_[i].mark;
     ChainLengths own = paid_out;
     // The machine's lengths that equal the paid-out ones after correction at a mark.
-    const auto correct = [&](MarkPoint mark) {
-      const auto there = view.correction->at(mark, own, Matrix2d::Zero()).lengths;
+    const auto correct = [&] {
+      const auto there = view.corrected(mark, own, Matrix2d::Zero()).lengths;
       own = {paid_out.left_mm - (there.left_mm - own.left_mm),
              paid_out.right_mm - (there.right_mm - own.right_mm)};
     };
-    if (view.correction != nullptr) correct(places_[i].mark);
-    auto reading = view.chains().find(own, start);
-    for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
-      start = reading->pose.position;
+    correct();
+    auto reading = view.chains().find(own, identity_placement(mark));
+    for (int turn = 1; reading && turn < kTurns; ++turn) {
       const ChainLengths before = own;
-      correct(view.sheet.to_mark(start));
-      if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
-          kConvergedMm)
-        break;
-      reading = view.chains().find(own, start);
+      mark = view.sheet.to_mark(reading->pose.position);
+      correct();
+      if (difference(own, before).lpNorm<1>() < kConvergedMm) break;
+      reading = view.chains().find(own, reading->pose.position);
     }
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()).at(i));
-    ChainPlaceState state{*reading, view.sheet.to_mark(reading->pose.position),
-                          reading->position_jacobian * view.sheet.rotation()};
-    if (view.correction != nullptr) {
-      const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);
-      state.by_mark = corrected.by_mark;
-      state.by_length = corrected.by_length;
-    }
-    states.push_back(std::move(state));
+    states.push_back(place_state(view, *reading, view.sheet.to_mark(reading->pose.position)));
   }
   return states;
-}
-
-void TapeDistances::state_nuisances() {
-  const Index of_holes = 2 * std::ssize(set_.holes);
-  nuisance_sigma_.resize(3 + of_holes);
-  nuisance_sigma_ << set_.sheet.size_sigma_mm, set_.sheet.size_sigma_mm,
-      tape_zero_sigma_mm(set_.tape), VectorXd::Constant(of_holes, set_.hole_sigma_mm);
-  nuisance_sigma_ = nuisance_sigma_.cwiseMax(kKnownNuisanceMm);
 }
 
 }  // namespace chaintrue::grid::observation

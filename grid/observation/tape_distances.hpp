@@ -99,8 +99,6 @@ class TapeDistances final : public Observation {
   explicit TapeDistances(MeasuredHoles set)
       : Observation(false, set.noise_dof), set_(std::move(set)) {}
 
-  void state_nuisances();
-
   MeasuredHoles set_;
 };
 

@@ -62,12 +62,8 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
 
 /// Smaller residuals do not show that the readings are more accurate than stated.
 void raise_to_rounding(const TestDrawing& drawing, estimation::Estimate& estimate) {
-  std::vector<double> readings_mm, sigmas_mm;
-  for (const DrawnMeasure& one : drawing.measures) {
-    readings_mm.push_back(one.value_mm);
-    sigmas_mm.push_back(one.sigma_mm);
-  }
-  const double least = rounding_sigma_mm(readings_mm) / rms(sigmas_mm);
+  const double least = rounding_sigma_mm(mapped(drawing.measures, &DrawnMeasure::value_mm)) /
+                       rms(mapped(drawing.measures, &DrawnMeasure::sigma_mm));
   if (!(estimate.noise_factor > 0.0) || estimate.noise_factor >= least) return;
   estimate.covariance *= std::pow(least / estimate.noise_factor, 2);
   estimate.noise_factor = least;

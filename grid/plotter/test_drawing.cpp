@@ -22,13 +22,6 @@ std::size_t cross_of(char name) { return kCrosses.find(name); }
 
 }  // namespace
 
-TestDrawing planned_drawing(const PlotterMachine& machine, model::PlotterFirmware firmware) {
-  SetPlotter set;
-  set.machine = machine;
-  set.firmware = firmware;
-  return planned_drawing(set);
-}
-
 TestDrawing planned_drawing(const SetPlotter& set) {
   const model::DrawingArea& a = set.machine.area;
   const double x = 0.5 * (a.left_mm + a.right_mm), y = 0.5 * (a.bottom_mm + a.top_mm);
@@ -84,8 +77,6 @@ std::string words_of(const TestDrawing& drawing, std::size_t measure) {
 }
 
 namespace {
-
-using observation::DrawnMeasure;
 
 /// A straight line, in the machine's frame.
 struct DrawnLine {

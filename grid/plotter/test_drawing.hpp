@@ -10,7 +10,7 @@
 ///     D --- G --- C
 ///
 /// \code
-///   const TestDrawing sheet = planned_drawing(machine, PlotterFirmware::mural);
+///   const TestDrawing sheet = planned_drawing({machine, PlotterFirmware::mural});
 ///   // the person fills in sheet.measures[i].value_mm
 ///   const auto fit = fit_drawing(sheet);
 /// \endcode
@@ -50,14 +50,14 @@ struct SetPlotter {
   PerSide<double> steps_per_mm{};
   /// The controller's position of the pen when it is switched on, in the machine's frame; for all
   /// but a mural.
-  std::optional<BedPoint> home;
+  std::optional<BedPoint> home{};
   /// The middle between the pins in the controller's own coordinates.
-  BedPoint pins_middle;
+  BedPoint pins_middle{};
   double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
-  PenCommands pen;
+  PenCommands pen{};
   double feed_mm_per_min = 1500.0;
   /// The longest cord that a controller allows, if stated.
-  std::optional<double> longest_belt_mm;
+  std::optional<double> longest_belt_mm{};
   /// For Marlin: segments per second of a move (M665 S).
   double segments_per_second = 5.0;
 };
@@ -75,7 +75,6 @@ inline constexpr double kRulerSigmaMm = 0.5;
 /// The crosses over the machine's drawing area, and 24 measures without values: 16 lengths and the
 /// bows of eight lines at their middles.
 TestDrawing planned_drawing(const SetPlotter& set);
-TestDrawing planned_drawing(const PlotterMachine& machine, model::PlotterFirmware firmware);
 
 /// The drawing as readings: each cross with what the controller paid out for it. Fails if the
 /// controller cannot hold a cross, with its place among the crosses.
@@ -92,7 +91,7 @@ std::string words_of(const TestDrawing& drawing, std::size_t measure);
 // The page that a V-plotter draws for its test drawing, and the list of what to measure on it.
 //
 // \code
-//   const TestDrawing drawing = planned_drawing(machine, PlotterFirmware::fluidnc);
+//   const TestDrawing drawing = planned_drawing({machine, PlotterFirmware::fluidnc});
 //   write("page.gcode", drawing_gcode(drawing));
 //   write("sheet.txt", measuring_list(drawing));
 // \endcode

@@ -88,7 +88,7 @@ CellResult hold_against_truth(const SweepSpec& spec, const Levels& at, const Com
   CellResult result;
   std::vector<Vector2d> chain_mm, tool_mm;
   for (const MarkPoint& mark :
-       raster(area_of(marked), spec.evaluation_columns, spec.evaluation_rows, RasterOf::nodes)) {
+       raster(area_of(marked), spec.evaluation.columns, spec.evaluation.rows, RasterOf::nodes)) {
     const BedPoint p = model::identity_placement(mark);
     const auto answer = map.lengths(mark);
     const auto real = truth.at(p);

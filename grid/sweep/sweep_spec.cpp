@@ -55,14 +55,11 @@ std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t le
 }
 
 std::string_view name(SurfaceLevel level) {
-  constexpr std::array<std::string_view, 4> kNames = {"residual", "direct", "direct_parabolic",
-                                                      "direct_natural"};
-  return kNames[as_size(level)];
+  return word_of(level, {"residual", "direct", "direct_parabolic", "direct_natural"});
 }
 
 std::string_view name(CellStatus status) {
-  constexpr std::string_view kNames[] = {"done", "no_map", "not_reached", "no_answer"};
-  return kNames[as_size(status)];
+  return word_of(status, {"done", "no_map", "not_reached", "no_answer"});
 }
 
 }  // namespace chaintrue::grid::sweep

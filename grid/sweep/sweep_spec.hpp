@@ -61,8 +61,7 @@ struct SweepSpec {
   std::uint64_t seed = 1;
   int repetitions = 10;
   /// Raster of the bed on which a map is compared with the truth.
-  int evaluation_columns = 40;
-  int evaluation_rows = 25;
+  GridLevel evaluation{40, 25};
   int repeats = 0;
   bool draw_settings = true;
   /// Marks and raster reach to the bed's edges, not only to its last whole 100 mm.

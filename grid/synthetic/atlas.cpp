@@ -29,6 +29,12 @@ struct SetAndActual {
   ToolPosition set_origin{};
   ToolPosition actual_origin{};
   int first_visit = 0;
+
+  /// What the controller pays out for a command.
+  auto paid_out(ToolPosition command) const {
+    return set->predict({set_origin.x_mm + command.x_mm, set_origin.y_mm + command.y_mm}, {},
+                        model::Derivatives::by_position);
+  }
 };
 
 /// The machine with a cause at a size; empty if there is none.
@@ -96,8 +102,7 @@ ToolPosition numbers_of_mark(const Mechanism& mechanism, ToolPosition place) {
 /// (1). The first two lengths place the tool.
 std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition command,
                                      const MechanismVisit& visit) {
-  const auto paid_out =
-      machine.set->predict(plus(machine.set_origin, command), {}, model::Derivatives::by_position);
+  const auto paid_out = machine.paid_out(command);
   if (!paid_out) return std::nullopt;
   const VectorXd& lengths = paid_out->lengths_mm;
   Flags counting(as_size(lengths.size()), false);
@@ -112,10 +117,7 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine, ToolPosition c
 
 /// Which way each length went from one point to the next.
 std::vector<double> directions(const SetAndActual& machine, ToolPosition from, ToolPosition to) {
-  const auto before =
-      machine.set->predict(plus(machine.set_origin, from), {}, model::Derivatives::by_position);
-  const auto after =
-      machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
+  const auto before = machine.paid_out(from), after = machine.paid_out(to);
   if (!before || !after) return {};
   return mapped(each_below(after->lengths_mm.size()),
                 [&](Index i) { return after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0; });
@@ -205,8 +207,9 @@ std::size_t first_size(const Effect& effect) {
   return at;
 }
 
-void add_settings(const Mechanism& mechanism, std::string_view cause,
-                  const std::function<Made(Index, double)>& with_size, Atlas& atlas) {
+void add_pictures(const Mechanism& mechanism, std::string_view cause,
+                  const std::function<Made(Index, double)>& with_setting,
+                  const std::function<Made(const AppliedEffect&)>& with_effect, Atlas& atlas) {
   const auto parameters = mechanism.parameters();
   for (const auto k : each_index(parameters)) {
     if (!cause.empty() && cause != parameters[k].name) continue;
@@ -214,12 +217,8 @@ void add_settings(const Mechanism& mechanism, std::string_view cause,
     const double most = 2.0 * usual;
     add_picture(
         {.parameter = parameters[k].name}, sizes_of(0.0, usual, -most, most, false), usual,
-        [&](double size) { return with_size(as_index(k), size); }, atlas);
+        [&](double size) { return with_setting(as_index(k), size); }, atlas);
   }
-}
-
-void add_effects(const Mechanism& mechanism, std::string_view cause,
-                 const std::function<Made(const AppliedEffect&)>& with_effect, Atlas& atlas) {
   for (const Effect* effect : mechanism.effects()) {
     if (!cause.empty() && cause != effect->id) continue;
     const std::size_t at = first_size(*effect);
@@ -269,14 +268,11 @@ Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
   const MechanismPointer set = mechanism.with_values(mechanism.values());
   Atlas atlas;
   atlas.lines = lattice_over(mechanism.extent());
-  add_settings(
+  add_pictures(
       mechanism, cause,
       [&](Index k, double more) -> Made {
         return SetAndActual{set, with_parameter(mechanism, k, more)};
       },
-      atlas);
-  add_effects(
-      mechanism, cause,
       [&](const AppliedEffect& effect) -> Made {
         return SetAndActual{set, mechanism.with_effects({effect})};
       },
@@ -294,16 +290,13 @@ Atlas atlas_of(const BeltMachine& machine, std::string_view cause) {
   Atlas atlas;
   atlas.calibrates_first = true;
   atlas.lines = lattice_over(area);
-  add_settings(
+  add_pictures(
       *actual, cause,
       [&](Index k, double more) -> Made {
         const auto as_is =
             make_belt_mechanism(with_anchors(machine, with_parameter(*actual, k, more)->values()));
         return SetAndActual{actual, as_is, origin, origin_of(as_is->machine())};
       },
-      atlas);
-  add_effects(
-      *actual, cause,
       [&](const AppliedEffect& effect) -> Made {
         const auto found = calibrated(machine, effect);
         if (!found) return std::nullopt;

@@ -207,10 +207,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   SyntheticAnswer& answer = session.answer;
   answer.seed = spec.seed;
   answer.hidden = spec.hidden;
-  SyntheticTruth truth = truth_of(stated, spec);
-  answer.machine = std::move(truth.machine);
-  answer.offsets = std::move(truth.offsets);
-  answer.sheet = truth.sheet;
+  static_cast<SyntheticTruth&>(answer) = truth_of(stated, spec);
 
   Random mark_random(spec.seed, kMarks);
   Random order_random(spec.seed, kOrder);
@@ -245,8 +242,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   session.grid.noise = stated_noise(spec);
   session.grid.sheet = spec.sheet;
   session.grid.points = written_down(written, answer.lengths, spec, answer.bad_points);
-  for (const std::size_t point : miscounted(answer.machine, visits))
-    answer.bad_points.push_back(point);
+  append_all(answer.bad_points, miscounted(answer.machine, visits));
   sort_unique(answer.bad_points);
   return session;
 }

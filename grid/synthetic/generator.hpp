@@ -100,12 +100,8 @@ struct SyntheticTruth {
 SyntheticTruth truth_of(const Machine& stated, const SyntheticSpec& spec);
 
 /// The truth of a simulation.
-struct SyntheticAnswer {
-  /// The true machine, with every effect.
-  Machine machine;
+struct SyntheticAnswer : SyntheticTruth {
   std::vector<AppliedEffect> hidden;
-  std::vector<SettingOffset> offsets;
-  SheetPlacement sheet;
   /// True position of the tool at each point of the grid, in the bed's frame.
   std::vector<BedPoint> places;
   /// Readings at each point without noise and gross errors.

@@ -22,7 +22,7 @@ using ::testing::SizeIs;
 /// Measures of the page that a plotter with this effect draws.
 TestDrawing drawn_with(const model::PlotterMachine& set,
                        const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
-  TestDrawing drawing = planned_drawing(set, model::PlotterFirmware::fluidnc);
+  TestDrawing drawing = planned_drawing({set, model::PlotterFirmware::fluidnc});
   const auto plotter = model::make_plotter_mechanism(set)->with_effects(hidden);
   const observation::DrawnMeasures crosses = drawn_measures_of(drawing).value();
   std::vector<Eigen::Vector2d> pens;

@@ -22,7 +22,7 @@ using Reason = DrawingFailure::Reason;
 /// Measures of the page that `truth` draws with a controller set to `stated`.
 TestDrawing measured(const PlotterMachine& stated, PlotterFirmware firmware,
                      const PlotterMachine& truth, double noise_mm, std::uint64_t seed) {
-  TestDrawing drawing = planned_drawing(stated, firmware);
+  TestDrawing drawing = planned_drawing({stated, firmware});
   const auto machine = model::make_plotter_mechanism(truth);
   std::vector<Eigen::Vector2d> pens;
   for (const DrawnCross& cross : drawing.crosses) {

@@ -15,7 +15,7 @@ using observation::DrawnMeasure;
 using testing::HasSubstr;
 
 TestDrawing planned() {
-  TestDrawing drawing = planned_drawing(model::PlotterMachine{}, PlotterFirmware::fluidnc);
+  TestDrawing drawing = planned_drawing({model::PlotterMachine{}, PlotterFirmware::fluidnc});
   drawing.pins_middle = {600.0, 0.0};
   return drawing;
 }
@@ -57,7 +57,7 @@ TEST(DrawingPage, GcodeLiftsThePenBetweenLines) {
 }
 
 TEST(DrawingPage, AMuralsPictureIsItsArea) {
-  const TestDrawing drawing = planned_drawing(model::mural(1500.0), PlotterFirmware::mural);
+  const TestDrawing drawing = planned_drawing({model::mural(1500.0), PlotterFirmware::mural});
   const std::string text = drawing_svg(drawing);
   EXPECT_THAT(text, HasSubstr("width=\"900.000mm\" height=\"1200.000mm\""));
   EXPECT_THAT(text, HasSubstr("M0.000,0.000 L900.000,0.000 "));

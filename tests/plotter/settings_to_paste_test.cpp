@@ -14,7 +14,7 @@ using model::PlotterFirmware;
 using testing::ElementsAre;
 
 TestDrawing drawing_of(PlotterFirmware firmware, const model::PlotterMachine& stated = {}) {
-  TestDrawing drawing = planned_drawing(stated, firmware);
+  TestDrawing drawing = planned_drawing({stated, firmware});
   drawing.pins_middle = {0.0, 500.0};
   return drawing;
 }

@@ -128,8 +128,7 @@ TEST(RunCell, MapsAKnownMachineExactly) {
 
 TEST(RunCell, MapIsWorseOnAnotherMachine) {
   SweepSpec spec = files::read_sweep(kSpecs + "another_machine.json").spec;
-  spec.evaluation_columns = 13;
-  spec.evaluation_rows = 7;
+  spec.evaluation = {13, 7};
   double same = 0.0, other = 0.0;
   for (std::uint64_t repetition = 0; repetition < 3; ++repetition) {
     same += run_cell(spec, repetition).tool_rms_mm;

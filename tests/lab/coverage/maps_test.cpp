@@ -24,7 +24,7 @@ TEST(DrawingCoverage, CoversSettingsAndAcceptsSoundOnes) {
   for (const std::uint64_t seed : seeds(60)) {
     Random random(seed, 42);
     const auto measured = [&](const model::PlotterMachine& truth) {
-      TestDrawing drawing = planned_drawing(stated, model::PlotterFirmware::mural);
+      TestDrawing drawing = planned_drawing({stated, model::PlotterFirmware::mural});
       const auto machine = model::make_plotter_mechanism(truth);
       std::vector<Eigen::Vector2d> pens;
       for (const DrawnCross& cross : drawing.crosses) {

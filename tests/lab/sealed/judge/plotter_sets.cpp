@@ -215,7 +215,7 @@ std::vector<HiddenCause> causes_of(PlotterKind kind) {
 PlotterSet plotter_set(PlotterKind kind, const HiddenCause& cause, double least_strength,
                        double most_strength, std::uint64_t seed) {
   constexpr int kDraws = 200, kScalings = 12;
-  PlotterSet set{cause, 0.0, grid::planned_drawing(machine_of(kind), firmware_of(kind)), {}};
+  PlotterSet set{cause, 0.0, grid::planned_drawing({machine_of(kind), firmware_of(kind)}), {}};
   Dice settings(seed, "settings of a plotter"), sizes(seed, "size of a cause"),
       ruler(seed, "ruler");
   const TruePlotter sound = true_plotter(set.drawing.machine, settings);
