@@ -88,9 +88,13 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-/// F with F F' the covariance of all whitened rows for s = 1, up to rounding: n x r. A smooth field over
-/// a bed has few degrees of freedom. Rows that see no place stay 0.
-MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel);
+/// The largest residual of a field's unit variance that is rounding.
+inline constexpr double kFieldRounding = 1e-13;
+/// F with F F' the covariance of all whitened rows for s = 1: n x r, what is left of a field's unit
+/// variance at any place below `least`. A smooth field over a bed has few degrees of freedom. Rows that
+/// see no place stay 0.
+MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel,
+                            double least = kFieldRounding);
 
 /// Covariance of a discrepancy in all rows of another system, and with the kept ones of its own.
 struct DiscrepancyElsewhere {
@@ -102,13 +106,5 @@ DiscrepancyElsewhere discrepancy_at(const RegressorSystem& there, const Discrepa
 
 /// F with F F' ~= a covariance, n x r, what is left of its diagonal below this share of the largest.
 MatrixXd low_rank(const MatrixXd& covariance, double share);
-
-/// A field's effect on all rows through each component of its entry, n x r each, what is left of the
-/// field's unit variance at any place below `least`.
-std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
-                                   double least);
-/// The combinations of components through which a field enters: its direction, or each component
-/// by itself.
-std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components);
 
 }  // namespace chaintrue::grid::diagnosis
