@@ -101,9 +101,17 @@ MatrixXd pivoted_factor(Index n, double least, const CovarianceOf& covariance) {
   return factor.leftCols(rank);
 }
 
-/// A field's effect on all rows through each component of its entry, n x r each.
-std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
-                                   double least) {
+/// The combinations of components through which a field enters: its direction, or each component
+/// by itself.
+std::vector<VectorXd> entries_of(const DiscrepancyField& field, Index components) {
+  if (const auto direction = entry_direction(field)) return {*direction};
+  return mapped(each_below(components),
+                [&](Index c) { return VectorXd(VectorXd::Unit(components, c)); });
+}
+
+/// Appends the columns of one field of unit variance.
+void add_field(const RegressorSystem& system, const DiscrepancyField& field, double least,
+               MatrixXd& all) {
   std::vector<FieldArgument> arguments;
   // Only the border's second component has its own arguments.
   for (const Index component : each_below(field.of == Coordinate::border ? 2 : 1)) {
@@ -114,27 +122,26 @@ std::vector<MatrixXd> field_factor(const RegressorSystem& system, const Discrepa
     return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
   });
   const Index second = factor.rows() - std::ssize(system.places);
-  std::vector<MatrixXd> parts;
+  const Index before = all.cols();
+  std::vector<VectorXd> entries;
   for (const SystemUnit& unit : system.units) {
     for (const PlaceColumns& place : unit.places) {
-      const MatrixXd entry = field_entry(field, system, unit, place);
-      if (parts.empty())
-        parts.assign(as_size(entry.cols()), MatrixXd::Zero(system.e.size(), factor.cols()));
-      for (const Index c : each_below(entry.cols())) {
-        parts[as_size(c)].middleRows(unit.first_row, unit.rows) +=
-            entry.col(c) * factor.row((c > 0 ? second : 0) + as_index(place.place));
+      const MatrixXd enters = field_entry(field, system, unit, place);
+      if (entries.empty()) {
+        entries = entries_of(field, enters.cols());
+        all.conservativeResize(Eigen::NoChange, before + std::ssize(entries) * factor.cols());
+        all.rightCols(all.cols() - before).setZero();
+      }
+      for (const auto k : each_index(entries)) {
+        auto own = all.block(unit.first_row, before + as_index(k) * factor.cols(), unit.rows,
+                             factor.cols());
+        for (const Index c : each_below(enters.cols())) {
+          own += entries[k][c] * enters.col(c) *
+                 factor.row((c > 0 ? second : 0) + as_index(place.place));
+        }
       }
     }
   }
-  return parts;
-}
-
-/// The combinations of components through which a field enters: its direction, or each component
-/// by itself.
-std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components) {
-  if (const auto direction = entry_direction(field)) return {*direction};
-  const auto count = as_index(components);
-  return mapped(each_below(count), [&](Index c) { return VectorXd(VectorXd::Unit(count, c)); });
 }
 
 }  // namespace
@@ -149,16 +156,7 @@ MatrixXd low_rank(const MatrixXd& covariance, double share) {
 MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel,
                             double least) {
   MatrixXd all(system.e.size(), 0);
-  for (const DiscrepancyField& field : kernel.fields) {
-    const std::vector<MatrixXd> parts = field_factor(system, field, least);
-    for (const VectorXd& entry : entries_of(field, parts.size())) {
-      const Index rank = all.cols();
-      all.conservativeResize(Eigen::NoChange, rank + parts.front().cols());
-      all.rightCols(all.cols() - rank).setZero();
-      for (const auto c : each_index(parts))
-        all.rightCols(all.cols() - rank) += entry[as_index(c)] * parts[c];
-    }
-  }
+  for (const DiscrepancyField& field : kernel.fields) add_field(system, field, least, all);
   all /= std::sqrt(as_double(kernel.fields.size()));
   // The lengths' fields are one, and together more than the rows.
   return kernel.of_lengths() ? low_rank(linear::outer(all), kFieldRounding) : all;

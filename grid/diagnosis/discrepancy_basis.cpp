@@ -30,32 +30,35 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSy
   marginalised.discrepancy_trace.resize(kernels_.size(), 0.0);
   for_each_index(kernels.size(), [&](std::size_t k) {
     const std::size_t number = kernels[k];
-    MatrixXd rows =
-        basis_of(system, marginalised, system.discrepancies->kernels[number]).transpose();
-    MatrixXd gram = linear::outer(rows);
-    const double trace = gram.trace();
-    marginalised.discrepancy_trace[number] = trace;
-    if (!(trace > 0.0)) rows.resize(0, rows.cols());
-    const linear::Tridiagonal tridiagonal(std::move(gram));
-    tridiagonal.rotate_in_place(rows);
-    kernels_[number] = {trace, tridiagonal.diagonal(), tridiagonal.subdiagonal(), std::move(rows)};
+    const DiscrepancyKernel& kernel = system.discrepancies->kernels[number];
+    Kernel own{basis_of(system, marginalised, kernel).transpose()};
+    MatrixXd gram = linear::outer(own.rows);
+    own.trace = marginalised.discrepancy_trace[number] = gram.trace();
+    if (own.trace > 0.0) {
+      own.tridiagonal = linear::Tridiagonal(std::move(gram));
+    } else {
+      own.rows.resize(0, own.rows.cols());
+    }
+    kernels_[number] = std::move(own);
   });
 }
 
 DiscrepancyBasis::GivenKernel::GivenKernel(const NormalEquations& plain, const Kernel& kernel)
-    : plain_(&plain),
-      kernel_(&kernel),
-      rotated_(linear::inner(plain.rows, MatrixXd(kernel.turned.transpose()))) {}
+    : plain_(&plain), kernel_(&kernel) {
+  MatrixXd with = linear::product(kernel.rows, plain.rows);
+  kernel.tridiagonal.rotate_in_place(with);
+  rotated_ = with.transpose();
+}
 
 DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double strength) const {
   // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry next to each
   const double shift = kernel_->trace / (strength * strength);
-  const Index r = kernel_->on.size();
+  const Index r = rotated_.cols();
   Half result{ArrayXd(r), ArrayXd::Zero(r), 0.0};
   double d = 0.0;
   for (const Index k : each_below(r)) {
-    const double own = kernel_->on(k) + shift;
-    const double before = k > 0 ? kernel_->subdiagonal(k - 1) : 0.0;
+    const double own = kernel_->tridiagonal.diagonal()(k) + shift;
+    const double before = k > 0 ? kernel_->tridiagonal.subdiagonal()(k - 1) : 0.0;
     if (k > 0) result.above(k) = before / std::sqrt(d);
     // J is positive up to rounding
     d = std::max(k > 0 ? own - before * before / d : own, shift);

@@ -21,6 +21,7 @@
 
 #include "grid/diagnosis/evidence.hpp"
 #include "interp/eigen.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -33,10 +34,9 @@ class DiscrepancyBasis {
 
  private:
   struct Kernel {
-    double trace = 0.0;   ///< of B'B
-    ArrayXd on;           ///< r, J's diagonal
-    ArrayXd subdiagonal;  ///< r - 1, the one next to it
-    MatrixXd turned;      ///< Q'B', r x N
+    MatrixXd rows;  ///< B', r x N
+    double trace = 0.0;
+    linear::Tridiagonal tridiagonal{};  ///< Q and J
   };
 
  public:
