@@ -109,9 +109,17 @@ std::vector<VectorXd> entries_of(const DiscrepancyField& field, Index components
                 [&](Index c) { return VectorXd(VectorXd::Unit(components, c)); });
 }
 
-/// Appends the columns of one field of unit variance.
-void add_field(const RegressorSystem& system, const DiscrepancyField& field, double least,
-               MatrixXd& all) {
+}  // namespace
+
+MatrixXd low_rank(const MatrixXd& covariance, double share) {
+  const Index n = covariance.rows();
+  const double most = n > 0 ? covariance.diagonal().maxCoeff() : 0.0;
+  if (!(most > 0.0)) return MatrixXd(n, 0);
+  return pivoted_factor(n, share * most, [&](Index i, Index j) { return covariance(i, j); });
+}
+
+std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
+                                   double least) {
   std::vector<FieldArgument> arguments;
   // Only the border's second component has its own arguments.
   for (const Index component : each_below(field.of == Coordinate::border ? 2 : 1)) {
@@ -122,42 +130,44 @@ void add_field(const RegressorSystem& system, const DiscrepancyField& field, dou
     return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
   });
   const Index second = factor.rows() - std::ssize(system.places);
-  const Index before = all.cols();
-  std::vector<VectorXd> entries;
+  std::vector<MatrixXd> parts;
   for (const SystemUnit& unit : system.units) {
     for (const PlaceColumns& place : unit.places) {
-      const MatrixXd enters = field_entry(field, system, unit, place);
-      if (entries.empty()) {
-        entries = entries_of(field, enters.cols());
-        all.conservativeResize(Eigen::NoChange, before + std::ssize(entries) * factor.cols());
-        all.rightCols(all.cols() - before).setZero();
-      }
-      for (const auto k : each_index(entries)) {
-        auto own = all.block(unit.first_row, before + as_index(k) * factor.cols(), unit.rows,
-                             factor.cols());
-        for (const Index c : each_below(enters.cols())) {
-          own += entries[k][c] * enters.col(c) *
-                 factor.row((c > 0 ? second : 0) + as_index(place.place));
-        }
+      const MatrixXd entry = field_entry(field, system, unit, place);
+      if (parts.empty())
+        parts.assign(as_size(entry.cols()), MatrixXd::Zero(system.e.size(), factor.cols()));
+      for (const Index c : each_below(entry.cols())) {
+        parts[as_size(c)].middleRows(unit.first_row, unit.rows) +=
+            entry.col(c) * factor.row((c > 0 ? second : 0) + as_index(place.place));
       }
     }
   }
+  return parts;
 }
 
-}  // namespace
-
-MatrixXd low_rank(const MatrixXd& covariance, double share) {
-  const Index n = covariance.rows();
-  const double most = n > 0 ? covariance.diagonal().maxCoeff() : 0.0;
-  if (!(most > 0.0)) return MatrixXd(n, 0);
-  return pivoted_factor(n, share * most, [&](Index i, Index j) { return covariance(i, j); });
+MatrixXd kernel_factor(const DiscrepancyKernel& kernel, Index rows,
+                       const FactorOfField& factor_of) {
+  MatrixXd all(rows, 0);
+  for (const DiscrepancyField& field : kernel.fields) {
+    const std::vector<MatrixXd> parts = factor_of(field);
+    if (parts.empty()) continue;
+    for (const VectorXd& entry : entries_of(field, std::ssize(parts))) {
+      const Index rank = parts.front().cols();
+      all.conservativeResize(rows, all.cols() + rank);
+      all.rightCols(rank) = entry[0] * parts[0];
+      for (std::size_t c = 1; c < parts.size(); ++c)
+        all.rightCols(rank) += entry[as_index(c)] * parts[c];
+    }
+  }
+  return all / std::sqrt(as_double(kernel.fields.size()));
 }
 
-MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel,
-                            double least) {
-  MatrixXd all(system.e.size(), 0);
-  for (const DiscrepancyField& field : kernel.fields) add_field(system, field, least, all);
-  all /= std::sqrt(as_double(kernel.fields.size()));
+MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel) {
+  // The largest residual of a field's unit variance that is rounding.
+  constexpr double kFieldRounding = 1e-13;
+  MatrixXd all = kernel_factor(kernel, system.e.size(), [&](const DiscrepancyField& field) {
+    return field_factor(system, field, kFieldRounding);
+  });
   // The lengths' fields are one, and together more than the rows.
   return kernel.of_lengths() ? low_rank(linear::outer(all), kFieldRounding) : all;
 }

@@ -20,6 +20,7 @@
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,7 +48,7 @@ struct DiscrepancyField {
   double across_rad = 0.0;                ///< from x, of Coordinate::across
   /// For FieldEntry::lengths the one length that it disturbs; absent: each of them.
   std::optional<Index> alone{};
-  bool operator==(const DiscrepancyField&) const = default;
+  auto operator<=>(const DiscrepancyField&) const = default;
 };
 
 struct DiscrepancyKernel {
@@ -88,13 +89,9 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-/// The largest residual of a field's unit variance that is rounding.
-inline constexpr double kFieldRounding = 1e-13;
-/// F with F F' the covariance of all whitened rows for s = 1: n x r, what is left of a field's unit
-/// variance at any place below `least`. A smooth field over a bed has few degrees of freedom. Rows that
-/// see no place stay 0.
-MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel,
-                            double least = kFieldRounding);
+/// F with F F' the covariance of all whitened rows for s = 1, up to rounding: n x r. A smooth field over
+/// a bed has few degrees of freedom. Rows that see no place stay 0.
+MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel);
 
 /// Covariance of a discrepancy in all rows of another system, and with the kept ones of its own.
 struct DiscrepancyElsewhere {
@@ -106,5 +103,13 @@ DiscrepancyElsewhere discrepancy_at(const RegressorSystem& there, const Discrepa
 
 /// F with F F' ~= a covariance, n x r, what is left of its diagonal below this share of the largest.
 MatrixXd low_rank(const MatrixXd& covariance, double share);
+
+/// A field's effect on all rows through each component of its entry, n x r each, what is left of the
+/// field's unit variance at any place below `least`. It does not depend on its direction.
+std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
+                                   double least);
+using FactorOfField = std::function<std::vector<MatrixXd>(const DiscrepancyField&)>;
+/// The columns of a kernel from those of its fields.
+MatrixXd kernel_factor(const DiscrepancyKernel& kernel, Index rows, const FactorOfField& factor_of);
 
 }  // namespace chaintrue::grid::diagnosis

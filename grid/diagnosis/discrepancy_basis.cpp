@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "grid/parallel.hpp"
 
@@ -13,33 +14,41 @@ namespace {
 /// is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// B of a kernel.
-MatrixXd basis_of(const RegressorSystem& system, const MarginalisedSystem& marginalised,
-                  const DiscrepancyKernel& kernel) {
-  if (!kernel.of_lengths())
-    return reduced(marginalised, discrepancy_factor(system, kernel, kLeftOfField));
-  const MatrixXd whole = reduced(marginalised, discrepancy_factor(system, kernel));
-  return low_rank(linear::outer(whole), kLeftOfField);
-}
-
 }  // namespace
 
 DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSystem& marginalised,
                                    const Indices& kernels)
     : kernels_(system.discrepancies->kernels.size()) {
   marginalised.discrepancy_trace.resize(kernels_.size(), 0.0);
-  for_each_index(kernels.size(), [&](std::size_t k) {
-    const std::size_t number = kernels[k];
+  // Several kernels share a field, in other directions.
+  std::map<DiscrepancyField, std::vector<MatrixXd>> factors;
+  const auto factor_of = [&](DiscrepancyField field) {
+    field.direction_rad.reset();
+    const auto [own, is_new] = factors.try_emplace(field);
+    if (is_new) {
+      for (const MatrixXd& part : field_factor(system, field, kLeftOfField))
+        own->second.push_back(reduced(marginalised, part));
+    }
+    return own->second;
+  };
+  for (const std::size_t number : kernels) {
     const DiscrepancyKernel& kernel = system.discrepancies->kernels[number];
-    Kernel own{basis_of(system, marginalised, kernel).transpose()};
+    const MatrixXd b =
+        kernel.of_lengths()
+            ? low_rank(linear::outer(reduced(marginalised, discrepancy_factor(system, kernel))),
+                       kLeftOfField)
+            : kernel_factor(kernel, marginalised.e.size(), factor_of);
+    kernels_[number].rows = b.transpose();
+  }
+  for_each_index(kernels.size(), [&](std::size_t k) {
+    Kernel& own = kernels_[kernels[k]];
     MatrixXd gram = linear::outer(own.rows);
-    own.trace = marginalised.discrepancy_trace[number] = gram.trace();
+    own.trace = marginalised.discrepancy_trace[kernels[k]] = gram.trace();
     if (own.trace > 0.0) {
       own.tridiagonal = linear::Tridiagonal(std::move(gram));
     } else {
       own.rows.resize(0, own.rows.cols());
     }
-    kernels_[number] = std::move(own);
   });
 }
 
