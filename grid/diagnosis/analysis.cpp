@@ -274,18 +274,10 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
     if (model.regressors.size() != 1) continue;
     if (regressor(a, model.regressors.front()).cause == cause) return model.regressors.front();
   }
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  int best = -1;
-  double most = -1.0;
-  for (const int k : a.system.regressors_of(cause)) {
-    const VectorXd g = reduced(marginalised, a.system.g.col(k));
-    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
-    if (score > most) {
-      most = score;
-      best = k;
-    }
+  for (const auto& [own, k] : best_regressors(a.system, marginalised_system(a))) {
+    if (own == cause) return k;
   }
-  return best;
+  return -1;
 }
 
 void reject_slips(const Analysis& a, Flags& outliers) {

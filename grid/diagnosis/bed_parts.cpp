@@ -66,41 +66,38 @@ bool lie_on_a_line(const std::vector<UnitPlace>& places) {
   return squares(0) <= kOnALine * kOnALine * squares(1);
 }
 
-using ModelKey = std::tuple<RegressorSet, int, std::size_t>;
-ModelKey key_of(const CandidateModel& model) {
-  return {model.regressors, model.discrepancy, model.marginalised};
-}
-
-PartPosterior summary(const RegressorSystem& system,
-                      const std::vector<const CandidateModel*>& models,
-                      const std::vector<double>& probability, BedPart part) {
+/// `probability` of each model of the comparison.
+PartPosterior summary(const RegressorSystem& system, const ModelComparison& comparison,
+                      const VectorXd& probability, BedPart part) {
   PartPosterior result{std::move(part)};
-  for (const auto k : each_index(models)) {
-    if (!models[k]->regressors.empty()) result.caused += probability[k];
-    for (const int regressor : models[k]->regressors) {
+  for (const auto k : each_index(comparison.models)) {
+    const RegressorSet& regressors = comparison.models[k].regressors;
+    const double p = probability(as_index(k));
+    if (!regressors.empty()) result.caused += p;
+    for (const int regressor : regressors) {
       const CauseId& cause = system.regressor(regressor).cause;
       auto* known = find_where(result.causes, [&](const auto& own) { return own.first == cause; });
       auto& own = known != nullptr ? *known : result.causes.emplace_back(cause, 0.0);
-      own.second += probability[k];
+      own.second += p;
     }
   }
   result.caused = std::min(result.caused, 1.0);
   return result;
 }
 
-/// Shares out the total weight of models with a pattern in proportion to these weights of some; those
+/// Shares out the total weight of models with a pattern in proportion to these weights; those
 /// without keep theirs.
-void redistribute(const std::map<ModelKey, double>& weights, double together,
-                  ModelComparison& comparison) {
+void redistribute(const VectorXd& weights, double together, ModelComparison& comparison) {
   // Floor for a model that no part supports, so that its logarithm is finite.
   constexpr double kNothing = 1e-300;
   double all = kNothing;
-  for (const auto& [key, weight] : weights) all += weight;
-  for (CandidateModel& model : comparison.models) {
-    const auto found = weights.find(key_of(model));
-    const double p = found != weights.end()   ? found->second / all * together
-                     : model.discrepancy >= 0 ? 0.0
-                                              : comparison.probability(model);
+  for (const auto k : each_index(comparison.models)) {
+    if (comparison.models[k].discrepancy >= 0) all += weights(as_index(k));
+  }
+  for (const auto k : each_index(comparison.models)) {
+    CandidateModel& model = comparison.models[k];
+    const double p = model.discrepancy >= 0 ? weights(as_index(k)) / all * together
+                                            : comparison.probability(model);
     model.log_weight = std::log(std::max(p, kNothing));
   }
   sort_by_weight(comparison);
@@ -144,17 +141,14 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system, std
   std::vector<BedPart> parts = bed_parts(system, fewest);
   if (parts.empty()) return result;
   const Downdating downdating(system, comparison, followed_of(system));
-  const std::vector<const CandidateModel*> models = downdating.followed();
-  std::vector<std::vector<double>> of_part(parts.size());
+  std::vector<VectorXd> of_part(parts.size());
   for_each_index(parts.size(), [&](std::size_t p) {
     of_part[p] = downdating.probabilities_without(parts[p].units, CountAs::all);
   });
-  std::map<ModelKey, double> weights;  // of models with a pattern
+  VectorXd weights = VectorXd::Zero(std::ssize(comparison.models));
   for (const auto p : each_index(parts)) {
-    for (const auto k : each_index(models)) {
-      if (models[k]->discrepancy >= 0) weights[key_of(*models[k])] += of_part[p][k];
-    }
-    result.push_back(summary(system, models, of_part[p], std::move(parts[p])));
+    weights += of_part[p];
+    result.push_back(summary(system, comparison, of_part[p], std::move(parts[p])));
   }
   redistribute(weights, pattern, comparison);
   return result;
@@ -173,9 +167,8 @@ std::vector<PartPosterior> session_posteriors(const RegressorSystem& system, std
       if (system.units[u].observation != session) others.units.push_back(u);
     }
     if (system.units.size() - others.units.size() < std::max<std::size_t>(fewest, 1)) continue;
-    const std::vector<double> own =
-        downdating.probabilities_without(others.units, CountAs::themselves);
-    result.push_back(summary(system, downdating.followed(), own, std::move(others)));
+    const VectorXd own = downdating.probabilities_without(others.units, CountAs::themselves);
+    result.push_back(summary(system, comparison, own, std::move(others)));
     result.back().session = session;
   }
   if (result.size() < 2) result.clear();

@@ -12,29 +12,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// The most informative regressor of each cause: the longest, and the nearest to the data among
-/// those of a cause with places.
-std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
-                                                     const MarginalisedSystem& marginalised) {
-  const VectorXd c = with_regressors(system, marginalised, marginalised.e);
-  const VectorXd square = squared_lengths(system, marginalised);
-  std::vector<std::pair<CauseId, int>> result;
-  double best = -1.0;
-  for (const auto k : each_index(system.regressors)) {
-    const auto at = as_index(k);
-    if (!(square(at) > 1e-8)) continue;
-    const double score = std::abs(c(at)) / std::sqrt(square(at));
-    if (result.empty() || result.back().first != system.regressors[k].cause) {
-      result.emplace_back(system.regressors[k].cause, as_int(k));
-      best = score;
-    } else if (score > best) {
-      result.back().second = as_int(k);
-      best = score;
-    }
-  }
-  return result;
-}
-
 bool on_paper(const CauseId& cause) { return cause.effect->station == Station::paper; }
 
 /// A cause's signature with the settings free, and with what was stated of them.
@@ -135,6 +112,27 @@ MatrixXd range_of_settings(const RegressorSystem& system, const MatrixXd& column
 }
 
 }  // namespace
+
+std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
+                                                     const MarginalisedSystem& marginalised) {
+  const VectorXd c = with_regressors(system, marginalised, marginalised.e);
+  const VectorXd square = squared_lengths(system, marginalised);
+  std::vector<std::pair<CauseId, int>> result;
+  double best = -1.0;
+  for (const auto k : each_index(system.regressors)) {
+    const auto at = as_index(k);
+    if (!(square(at) > 1e-8)) continue;
+    const double score = std::abs(c(at)) / std::sqrt(square(at));
+    if (result.empty() || result.back().first != system.regressors[k].cause) {
+      result.emplace_back(system.regressors[k].cause, as_int(k));
+      best = score;
+    } else if (score > best) {
+      result.back().second = as_int(k);
+      best = score;
+    }
+  }
+  return result;
+}
 
 std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                    const ModelComparison& comparison) {

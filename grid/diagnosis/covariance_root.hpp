@@ -97,6 +97,7 @@ class LowRankNoise {
 
 class LeaveOut {
  public:
+  LeaveOut() = default;
   LeaveOut(const CovarianceRoot& root, const LowRankNoise& noise, const MatrixXd& x);
 
   Index rows() const { return weighed_.rows(); }

@@ -18,6 +18,10 @@ using CauseClass = std::vector<CauseId>;
 std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                    const ModelComparison& comparison);
 
+/// The regressor of each visible cause that the data are nearest to.
+std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
+                                                     const MarginalisedSystem& marginalised);
+
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes
   double probability = 0.0;

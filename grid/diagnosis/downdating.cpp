@@ -19,51 +19,6 @@ namespace {
 /// 1e-13.
 constexpr double kNothingLeft = 1e-9;
 
-using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, discrepancy
-
-/// The models that may lead without some points: the best ones and, in each of their marginalised
-/// systems, no cause and every cause alone at its best place.
-std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
-    const RegressorSystem& system, const ModelComparison& comparison,
-    const FollowedModels& limits) {
-  std::map<FactorisationKey, double> share;
-  for (const CandidateModel& model : comparison.models) {
-    share[{model.marginalised, model.discrepancy}] += comparison.probability(model);
-  }
-  std::vector<std::pair<double, FactorisationKey>> discrepancies;
-  for (const auto& [key, p] : share) {
-    if (key.second >= 0 && p >= limits.discrepancy_share) discrepancies.emplace_back(-p, key);
-  }
-  sort(discrepancies);
-  if (discrepancies.size() > limits.most_discrepancies)
-    discrepancies.resize(limits.most_discrepancies);
-  const auto is_followed = [&](const FactorisationKey& key) {
-    return key.second < 0 || any_of(discrepancies, [&](const auto& p) { return p.second == key; });
-  };
-  const double best = comparison.best().log_weight;
-  std::map<FactorisationKey, std::vector<CandidateModel>> result;
-  std::set<std::pair<FactorisationKey, CauseId>> alone;
-  std::set<std::size_t> marginalised_systems;
-  std::size_t taken = 0;
-  double last = best;
-  // Best first, so that a marginalised system is known before its other models.
-  for (const CandidateModel& model : comparison.models) {
-    const FactorisationKey key{model.marginalised, model.discrepancy};
-    if (!is_followed(key)) continue;
-    const bool leads = model.log_weight > best - limits.within &&
-                       (taken < limits.most || tied(model.log_weight, last));
-    bool first_alone = model.regressors.empty();
-    if (model.regressors.size() == 1)
-      first_alone = alone.emplace(key, system.regressor(model.regressors[0]).cause).second;
-    if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
-    if (leads && taken < limits.most) last = model.log_weight;
-    taken += leads ? 1 : 0;
-    marginalised_systems.insert(key.first);
-    result[key].push_back(model);
-  }
-  return result;
-}
-
 /// Columns that are nonzero only in the left-out rows become exactly 0, not a rounding difference.
 void clear_unobserved_columns(const NormalEquations& before, NormalEquations& equations) {
   for (const Index i : each_below(equations.gg.rows())) {
@@ -106,33 +61,72 @@ Downdating::Downdating(const RegressorSystem& system, const ModelComparison& com
     : system_(system),
       comparison_(comparison),
       score_(system, comparison.best_system(), system.noise_dof) {
-  auto followed = models_to_follow(system, comparison, limits);
-  std::vector<std::pair<const FactorisationKey, std::vector<CandidateModel>>*> all;
-  for (auto& one : followed) all.push_back(&one);
-  std::vector<std::optional<Factorisation>> made(all.size());
+  const auto followed = models_to_follow(limits);
+  const std::vector<std::pair<Key, Indices>> all(followed.begin(), followed.end());
+  factorisations_.resize(all.size());
   for_each_index(all.size(), [&](std::size_t k) {
-    auto& [key, models] = *all[k];
-    made[k] = factorisation_of(key.first, key.second, std::move(models));
+    factorisations_[k] = factorisation_of(all[k].first, all[k].second);
   });
-  for (auto& own : made) factorisations_.push_back(*std::move(own));
 }
 
-Downdating::Factorisation Downdating::factorisation_of(std::size_t number, int discrepancy,
-                                                       std::vector<CandidateModel> models) const {
-  const MarginalisedSystem& marginalised = comparison_.marginalised_systems[number];
+std::map<Downdating::Key, Indices> Downdating::models_to_follow(
+    const FollowedModels& limits) const {
+  std::map<Key, double> share;
+  for (const CandidateModel& model : comparison_.models) {
+    share[{model.marginalised, model.discrepancy}] += comparison_.probability(model);
+  }
+  std::vector<std::pair<double, Key>> discrepancies;
+  for (const auto& [key, p] : share) {
+    if (key.second >= 0 && p >= limits.discrepancy_share) discrepancies.emplace_back(-p, key);
+  }
+  sort(discrepancies);
+  if (discrepancies.size() > limits.most_discrepancies)
+    discrepancies.resize(limits.most_discrepancies);
+  const auto is_followed = [&](const Key& key) {
+    return key.second < 0 || any_of(discrepancies, [&](const auto& p) { return p.second == key; });
+  };
+  const double best = comparison_.best().log_weight;
+  std::map<Key, Indices> result;
+  std::set<std::pair<Key, CauseId>> alone;
+  std::set<std::size_t> marginalised_systems;
+  std::size_t taken = 0;
+  double last = best;
+  // Best first, so that a marginalised system is known before its other models.
+  for (const auto number : each_index(comparison_.models)) {
+    const CandidateModel& model = comparison_.models[number];
+    const Key key{model.marginalised, model.discrepancy};
+    if (!is_followed(key)) continue;
+    const bool leads = model.log_weight > best - limits.within &&
+                       (taken < limits.most || tied(model.log_weight, last));
+    bool first_alone = model.regressors.empty();
+    if (model.regressors.size() == 1)
+      first_alone = alone.emplace(key, system_.regressor(model.regressors[0]).cause).second;
+    if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
+    if (leads && taken < limits.most) last = model.log_weight;
+    taken += leads ? 1 : 0;
+    marginalised_systems.insert(key.first);
+    result[key].push_back(number);
+  }
+  return result;
+}
+
+Downdating::Factorisation Downdating::factorisation_of(const Key& key,
+                                                       const Indices& models) const {
+  const MarginalisedSystem& marginalised = comparison_.marginalised_systems[key.first];
   RegressorSet columns;
-  for (const CandidateModel& model : models) append_all(columns, model.regressors);
+  for (const std::size_t number : models)
+    append_all(columns, comparison_.models[number].regressors);
   sort_unique(columns);
   NormalEquations equations = normal_equations(system_, marginalised, std::move(columns));
   const MatrixXd e = std::exchange(equations.rows, {});
-  const MatrixXd pattern = discrepancy_columns(system_, marginalised, discrepancy);
+  const MatrixXd pattern = discrepancy_columns(system_, marginalised, key.second);
   Factorisation factorised{
-      number, discrepancy,
-      LeaveOut(marginalised.root, LowRankNoise(reduced(marginalised, pattern)), e),
-      std::move(equations), std::move(models)};
+      key, LeaveOut(marginalised.root, LowRankNoise(reduced(marginalised, pattern)), e),
+      std::move(equations), models};
   take_inner(factorised.rows.without({}), factorised.equations);
   const NoiseDensity noise(system_.noise_dof, e.rows());
-  for (const CandidateModel& model : factorised.models) {
+  for (const std::size_t number : models) {
+    const CandidateModel& model = comparison_.models[number];
     ColumnSet set = factorised.equations.positions(model.regressors);
     const double evidence =
         set_evidence(factorised.equations, system_.regressors, set, noise).log_evidence;
@@ -149,7 +143,7 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   take_inner(factorised.rows.without(out), equations);
   clear_unobserved_columns(factorised.equations, equations);
   // With a discrepancy the expected sizes are those of all points.
-  if (factorised.discrepancy < 0) {
+  if (factorised.key.second < 0) {
     equations.prior_square =
         prior_squares(system_.regressors, equations.columns, equations.gg.diagonal());
   }
@@ -160,7 +154,7 @@ Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs cou
   AllWithout result;
   std::map<std::tuple<std::size_t, int, RegressorSet>, std::size_t> known;
   for (const Factorisation& factorised : factorisations_) {
-    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
+    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.key.first];
     const Rows out = whole.kept.positions(units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Index rows = factorised.rows.rows() - std::ssize(out);
@@ -174,17 +168,19 @@ Downdating::AllWithout Downdating::all_without(const Indices& units, CountAs cou
     const std::size_t home =
         home_of(result.systems, with_units(system_, whole.outliers, units, true));
     for (const auto k : each_index(factorised.models)) {
-      const CandidateModel& model = factorised.models[k];
+      CandidateModel model = comparison_.models[factorised.models[k]];
+      model.marginalised = home;
       const auto [same, is_new] =
-          known.try_emplace({home, factorised.discrepancy, model.regressors}, result.models.size());
-      ModelWithout own{&model, home, same->second, {}, 0.0};
+          known.try_emplace({home, model.discrepancy, model.regressors}, result.models.size());
       if (is_new) {
-        own.evidence = set_evidence(equations, system_.regressors, factorised.sets[k], noise);
-        own.log_weight = factorised.prior[k] + power * own.evidence.log_evidence + price;
+        const auto evidence =
+            set_evidence(equations, system_.regressors, factorised.sets[k], noise);
+        model.log_weight = factorised.prior[k] + power * evidence.log_evidence + price;
+        model.larger_noise = evidence.larger_noise;
       }
-      result.models.push_back(own);
+      result.models.push_back({factorised.models[k], same->second, std::move(model)});
     }
-    if (factorised.discrepancy < 0)
+    if (factorised.key.second < 0)
       result.strongest.emplace_back(score_.largest(equations, rows), home);
   }
   return result;
@@ -196,10 +192,9 @@ Downdating::Without Downdating::without(const Indices& units) const {
   ModelComparison& comparison = result.comparison;
   comparison.marginalised_systems = std::move(all.systems);
   for (const auto k : each_index(all.models)) {
-    const ModelWithout& own = all.models[k];
-    if (own.same != k || !std::isfinite(own.log_weight)) continue;
-    comparison.models.push_back({own.model->regressors, own.model->discrepancy, own.home,
-                                 own.log_weight, own.evidence.larger_noise});
+    ModelWithout& own = all.models[k];
+    if (own.same == k && std::isfinite(own.model.log_weight))
+      comparison.models.push_back(std::move(own.model));
   }
   sort_by_weight(comparison);
   for (const auto& [score, marginalised] : all.strongest) {
@@ -209,33 +204,27 @@ Downdating::Without Downdating::without(const Indices& units) const {
   return result;
 }
 
-std::vector<const CandidateModel*> Downdating::followed() const {
-  std::vector<const CandidateModel*> result;
-  for (const Factorisation& factorised : factorisations_) {
-    for (const CandidateModel& model : factorised.models) result.push_back(&model);
-  }
-  return result;
-}
-
-std::vector<double> Downdating::probabilities_without(const Indices& units,
-                                                      CountAs count_as) const {
+VectorXd Downdating::probabilities_without(const Indices& units, CountAs count_as) const {
   const std::vector<ModelWithout> models = all_without(units, count_as).models;
+  const auto weight_before = [&](const ModelWithout& own) {
+    return comparison_.models[own.number].log_weight;
+  };
   // Weights with all points, of those that are one without them.
   std::vector<double> log_all(models.size(), kMinusInfinity);
   std::vector<double> weights;
   for (const auto k : each_index(models)) {
     double& sum = log_all[models[k].same];
-    sum = log_sum(sum, models[k].model->log_weight);
-    if (models[k].same == k && std::isfinite(models[k].log_weight))
-      weights.push_back(models[k].log_weight);
+    sum = log_sum(sum, weight_before(models[k]));
+    const double weight = models[k].model.log_weight;
+    if (models[k].same == k && std::isfinite(weight)) weights.push_back(weight);
   }
   const double total = weights.empty() ? 0.0 : log_sum(weights);
-  std::vector<double> result;
+  VectorXd result = VectorXd::Zero(std::ssize(comparison_.models));
   for (const ModelWithout& own : models) {
-    const double weight = models[own.same].log_weight;
-    result.push_back(std::isfinite(weight)
-                         ? std::exp(weight - total + own.model->log_weight - log_all[own.same])
-                         : 0.0);
+    const double weight = models[own.same].model.log_weight;
+    if (std::isfinite(weight))
+      result(as_index(own.number)) =
+          std::exp(weight - total + weight_before(own) - log_all[own.same]);
   }
   return result;
 }

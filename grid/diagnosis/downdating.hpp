@@ -10,6 +10,7 @@
 /// never tried, and discrepancies below a least probability are ignored.
 #pragma once
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -52,32 +53,28 @@ class Downdating {
   /// Units are positions in the session.
   [[nodiscard]] Without without(const Indices& units) const;
 
-  /// The models followed, in the order of `probabilities_without`.
-  std::vector<const CandidateModel*> followed() const;
-  /// For each followed model, given that one of them holds. Models that differ only in which of the
-  /// left-out points they reject divide their probability by their weights with all points.
-  std::vector<double> probabilities_without(const Indices& units, CountAs count_as) const;
+  /// For each model of the comparison, given that a followed one holds; 0 for the others. Models that
+  /// differ only in which of the left-out points they reject divide their probability by their weights
+  /// with all points.
+  VectorXd probabilities_without(const Indices& units, CountAs count_as) const;
 
  private:
-  /// One marginalised system with one discrepancy or none.
+  /// A marginalised system, and a discrepancy or -1.
+  using Key = std::pair<std::size_t, int>;
   struct Factorisation {
-    std::size_t marginalised = 0;
-    int discrepancy = -1;
-    LeaveOut rows;              ///< residual and columns of the models
-    NormalEquations equations;  ///< with all points
-    std::vector<CandidateModel> models;
+    Key key;
+    LeaveOut rows;                  ///< residual and columns of the models
+    NormalEquations equations;      ///< with all points
+    Indices models;                 ///< of the comparison
     std::vector<ColumnSet> sets{};  ///< of each: its columns in the equations
     std::vector<double> prior{};    ///< of each: weight less evidence
   };
-
   /// A followed model without some units.
   struct ModelWithout {
-    const CandidateModel* model = nullptr;
-    std::size_t home = 0;  ///< among the systems
+    std::size_t number = 0;  ///< in the comparison
     /// The first that is the same: models may differ only in which of these units they reject.
     std::size_t same = 0;
-    SetEvidence evidence;
-    double log_weight = 0.0;
+    CandidateModel model;  ///< where it is the first, with its weight without them
   };
   struct AllWithout {
     std::vector<MarginalisedSystem> systems;  ///< as Without's
@@ -85,8 +82,10 @@ class Downdating {
     std::vector<std::pair<double, std::size_t>> strongest;  ///< score, by system
   };
   AllWithout all_without(const Indices& units, CountAs count_as) const;
-  Factorisation factorisation_of(std::size_t marginalised, int discrepancy,
-                                 std::vector<CandidateModel> models) const;
+  /// The models that may lead without some points: the best ones and, in each of their marginalised
+  /// systems, no cause and every cause alone at its best place.
+  std::map<Key, Indices> models_to_follow(const FollowedModels& limits) const;
+  Factorisation factorisation_of(const Key& key, const Indices& models) const;
   /// Inner products with these rows of the marginalised system gone.
   NormalEquations downdated_equations(const Factorisation& factorised, const Rows& out) const;
 

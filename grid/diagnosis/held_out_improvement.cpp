@@ -136,28 +136,29 @@ DecidedWithout decided_without(const Analysis& a, const Downdating& downdating,
 
 namespace {
 
-/// Held-out units of one fold.
-struct Fold {
+/// Held-out units of one fold, or of all.
+struct Folds {
   Indices units;
+  Indices number;  ///< of the block of each
   Errors errors;
-  bool agrees = false;  ///< whether it names the same first cause, or names none either
+  int agree = 0;  ///< folds that name the same first cause, or name none either
 };
 
 /// \param units of the analysis' session, left out of everything. The gate and the decision are
 /// those for all units; the models are those of the whole comparison, weighed without these units
 /// (downdating.hpp). Outliers and slips of the whole session are not among the fold's units.
-Fold fold_without(const Analysis& a, const Downdating& downdating, const Indices& units) {
+Folds fold_without(const Analysis& a, const Downdating& downdating, const Indices& units) {
   const auto [without, decision] = decided_without(a, downdating, units);
   // A reading that is wrong only at its own visit carries no information about others.
   Flags out = marginalised_system(a).outliers;
   reject_slips(a, out);
-  Fold fold;
+  Folds fold;
   for (const std::size_t u : units) {
     if (!out[u]) fold.units.push_back(u);
   }
   const std::vector<CauseId> named = decision.leaders();
-  fold.agrees =
-      named.empty() ? a.decision.listed.empty() : contains(a.decision.leaders(), named.front());
+  fold.agree = as_int(named.empty() ? a.decision.listed.empty()
+                                    : contains(a.decision.leaders(), named.front()));
   fold.errors = errors_at(fold.units, a, without.comparison, decision);
   return fold;
 }
@@ -243,24 +244,16 @@ const ErrorsWith& extension_of(const Analysis& a, const Errors& errors) {
   return errors[kCalibrated];
 }
 
-/// The held-out errors of every fold.
-struct AllFolds {
-  Indices units;
-  Indices number;  ///< of the block of each
-  Errors errors;
-  int agree = 0;
-};
-
-AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
-  AllFolds all;
+Folds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
+  Folds all;
   tell(a.options.progress, {"what a name gains", 3, 4});
   const Downdating downdating(a.system, a.comparison);
-  std::vector<Fold> folds(blocks.units.size());
+  std::vector<Folds> folds(blocks.units.size());
   for_each_index(folds.size(),
                  [&](std::size_t b) { folds[b] = fold_without(a, downdating, blocks.units[b]); });
   for (const auto b : each_index(folds)) {
-    const Fold& fold = folds[b];
-    all.agree += as_int(fold.agrees);
+    const Folds& fold = folds[b];
+    all.agree += fold.agree;
     append_all(all.units, fold.units);
     all.number.insert(all.number.end(), fold.units.size(), b);
     for (const auto k : each_index(all.errors)) {
@@ -322,7 +315,7 @@ HeldOut summarise(const std::vector<Vector2d>& tool_mm, const Indices& block, st
 
 std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   const HeldOutBlocks blocks = held_out_blocks(a.session);
-  const AllFolds folds = hold_out_each(a, blocks);
+  const Folds folds = hold_out_each(a, blocks);
   const auto& [units, number, all, agree] = folds;
   if (units.empty()) return std::nullopt;
   HeldOutImprovement improvement;

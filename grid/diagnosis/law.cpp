@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/law.hpp"
+#include "grid/diagnosis/law_curves.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -123,29 +123,18 @@ double value_of(const Law& law, double v) {
     throw precondition("a law of shape {} with {} parameters", name(law.shape),
                        law.parameters.size());
   }
-  const double size = law.parameters.front().value;
-  const double second = law.parameters.size() > 1 ? law.parameters[1].value : 0.0;
-  const double span = law.to - law.from;
-  const double middle = 0.5 * (law.from + law.to);
-  switch (law.shape) {
-    case LawShape::linear:
-      return size * (v - middle) / span;
-    case LawShape::square:
-      return size * std::pow((v - second) / (0.5 * span), 2);
-    case LawShape::step:
-      return v >= second ? size : 0.0;
-    case LawShape::kink:
-      return size * std::max(0.0, law.towards * (v - second)) / span;
-    case LawShape::exponential:
-      return size * std::exp(-(law.towards > 0 ? law.to - v : v - law.from) / second);
-    case LawShape::wave:
-    case LawShape::harmonics:
-      break;
-  }
-  const double turn = 2.0 * std::numbers::pi * (v - middle) / second;
-  const double first = size * std::sin(turn + law.parameters[2].value);
-  if (law.shape == LawShape::wave) return first;
-  return first + law.parameters[3].value * std::sin(2.0 * turn + law.parameters[4].value);
+  const auto value = [&](std::size_t k) { return law.parameters[k].value; };
+  if (law.shape == LawShape::square)
+    return value(0) * std::pow((v - value(1)) / (0.5 * law.span()), 2);
+  const double second = law.parameters.size() > 1 ? value(1) : 0.0;
+  if (!is_periodic(law.shape)) return value(0) * basis_at(law, second, 0, v);
+  const auto wave = [&](double size, double phase, Index column) {
+    const double at = law.span() / second;
+    return size * (std::sin(phase) * basis_at(law, at, column, v) +
+                   std::cos(phase) * basis_at(law, at, column + 1, v));
+  };
+  const double first = wave(value(0), value(2), 0);
+  return law.shape == LawShape::wave ? first : first + wave(value(3), value(4), 2);
 }
 
 }  // namespace chaintrue::grid::diagnosis

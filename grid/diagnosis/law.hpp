@@ -19,6 +19,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -116,18 +117,28 @@ struct LawHeldOut {
   Errors outside;  ///< a quarter of the bed on one side of a line
 };
 
-struct Law {
+/// The variable of a law, and where it enters.
+struct LawTerm {
   Coordinate of = Coordinate::x;  ///< anything but Coordinate::place
-  LawShape shape = LawShape::linear;
   Enters enters = Enters::mixed;
+  double direction_deg = 0.0;  ///< of Coordinate::across and Enters::along, from x towards y
+  double direction_rad() const { return direction_deg * std::numbers::pi / 180.0; }
+};
+/// With the shape, over a range of the variable.
+struct LawForm : LawTerm {
+  LawShape shape = LawShape::linear;
+  int towards = 0;  ///< of a kink or an exponential: 1, -1; else 0
+  double from = 0.0;
+  double to = 0.0;
+  double span() const { return to - from; }
+  double middle() const { return 0.5 * (from + to); }
+};
+
+struct Law : LawForm {
   /// Probability that the pattern is a function of this variable and enters there, whatever its
   /// shape.
   double probability = 0.0;
   double shape_probability = 0.0;  ///< of this shape, given the law
-  double direction_deg = 0.0;      ///< of Coordinate::across, from x towards y
-  int towards = 0;                 ///< of a kink or an exponential: 1, -1; else 0
-  double from = 0.0;
-  double to = 0.0;
   double rms_mm = 0.0;  ///< of the tool at the points; with four belts, of one of the belts
   double share = 0.0;   ///< of the mean square of the residual of the settings
   std::vector<ParameterEstimate> parameters;  ///< in the order of the table

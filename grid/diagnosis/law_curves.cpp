@@ -51,19 +51,19 @@ class CurveList {
  public:
   explicit CurveList(const RegressorSystem& system) : system_(system) {}
 
-  void add_all(Coordinate of, double direction_rad, double weight) {
+  void add_all(Coordinate of, double direction_deg, double weight) {
+    start_ = {};
+    start_.of = of;
+    start_.direction_deg = direction_deg;
     values_.clear();
     for (const SystemPlace& place : system_.places) {
       if (of != Coordinate::visit || place.ordered)
-        values_.push_back(value_at(place, of, direction_rad));
+        values_.push_back(value_at(place, of, start_.direction_rad()));
     }
     constexpr std::size_t kFewest = 8;  // fewer places show no shape
     if (values_.size() < kFewest) return;
     sort(values_);
     if (!(values_.back() - values_.front() > 1e-6)) return;
-    start_ = {};
-    start_.of = of;
-    start_.direction_rad = direction_rad;
     start_.from = values_.front();
     start_.to = values_.back();
     for (const LawEntrance& entrance : law_entrances(system_, of)) {
@@ -169,29 +169,6 @@ class CurveList {
   std::vector<LawCurve> curves_;
 };
 
-/// The factor of one amplitude of a law at one value.
-double basis(const LawCurve& curve, double at, Index column, double v) {
-  const double u = (v - curve.middle()) / curve.span();
-  switch (curve.shape) {
-    case LawShape::linear:
-      return u;
-    case LawShape::square:
-      return column == 0 ? 4.0 * u * u : 2.0 * u;
-    case LawShape::step:
-      return v >= at ? 1.0 : 0.0;
-    case LawShape::kink:
-      return std::max(0.0, curve.towards * (v - at)) / curve.span();
-    case LawShape::exponential:
-      return std::exp(-(curve.towards > 0 ? curve.to - v : v - curve.from) / at);
-    case LawShape::wave:
-    case LawShape::harmonics:
-      break;
-  }
-  const double harmonic = column < 2 ? 1.0 : 2.0;
-  const double turn = 2.0 * std::numbers::pi * harmonic * at * u;
-  return column % 2 == 0 ? std::cos(turn) : std::sin(turn);
-}
-
 std::vector<LawEntrance> entrances_of_chains(Coordinate of) {
   using enum Enters;
   if (const auto chain = chain_of(of)) {
@@ -230,14 +207,14 @@ std::vector<std::pair<double, Vector2d>> chains_at(const SystemPlace& place, con
         {0.5 * place.bed.width_mm - std::abs(x_mm), by_mark.col(0) * std::copysign(1.0, x_mm)},
         {0.5 * place.bed.height_mm - std::abs(y_mm), by_mark.col(1) * std::copysign(1.0, y_mm)}};
   }
-  const Vector2d along(std::cos(term.direction_rad), std::sin(term.direction_rad));
+  const Vector2d along(std::cos(term.direction_rad()), std::sin(term.direction_rad()));
   const Vector2d chains_mm = term.enters == Enters::left    ? Vector2d(1.0, 0.0)
                              : term.enters == Enters::right ? Vector2d(0.0, 1.0)
                              : term.enters == Enters::equal ? Vector2d(1.0, 1.0)
                              : term.enters == Enters::x     ? Vector2d(by_mark.col(0))
                              : term.enters == Enters::y     ? Vector2d(by_mark.col(1))
                                                             : Vector2d(by_mark * along);
-  return {{value_at(place, term.of, term.direction_rad), chains_mm}};
+  return {{value_at(place, term.of, term.direction_rad()), chains_mm}};
 }
 
 }  // namespace
@@ -270,6 +247,28 @@ bool is_continuous(LawShape shape) {
   return shape == LawShape::kink || shape == LawShape::exponential || is_periodic(shape);
 }
 
+double basis_at(const LawForm& law, double at, Index column, double v) {
+  const double u = (v - law.middle()) / law.span();
+  switch (law.shape) {
+    case LawShape::linear:
+      return u;
+    case LawShape::square:
+      return column == 0 ? 4.0 * u * u : 2.0 * u;
+    case LawShape::step:
+      return v >= at ? 1.0 : 0.0;
+    case LawShape::kink:
+      return std::max(0.0, law.towards * (v - at)) / law.span();
+    case LawShape::exponential:
+      return std::exp(-(law.towards > 0 ? law.to - v : v - law.from) / at);
+    case LawShape::wave:
+    case LawShape::harmonics:
+      break;
+  }
+  const double harmonic = column < 2 ? 1.0 : 2.0;
+  const double turn = 2.0 * std::numbers::pi * harmonic * at * u;
+  return column % 2 == 0 ? std::cos(turn) : std::sin(turn);
+}
+
 double density_at(const LawCurve& curve, double at) {
   // Scales are even in their logarithm, as periods are.
   return is_periodic(curve.shape) || curve.shape == LawShape::exponential ? 1.0 / at : 1.0;
@@ -281,8 +280,7 @@ std::vector<LawCurve> law_curves(const RegressorSystem& system) {
   for (int k = 1; k < kLawDirections; ++k) {
     if (2 * k == kLawDirections) continue;
     // A direction is one more parameter.
-    list.add_all(Coordinate::across, std::numbers::pi * k / kLawDirections,
-                 0.5 / (kLawDirections - 2));
+    list.add_all(Coordinate::across, 180.0 * k / kLawDirections, 0.5 / (kLawDirections - 2));
   }
   std::vector<LawCurve> curves = list.take();
   share_out(curves);
@@ -302,7 +300,7 @@ RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, doub
   const Index each = columns_of(curve.shape);
   RowVectorXd values(each * std::ssize(at));
   for (const Index k : each_below(values.size()))
-    values(k) = basis(curve, at[as_size(k / each)], k % each, v);
+    values(k) = basis_at(curve, at[as_size(k / each)], k % each, v);
   return values;
 }
 
@@ -340,7 +338,7 @@ std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit,
   for (const PlaceColumns& own : system.units[unit].places) {
     const SystemPlace& place = system.places[own.place];
     if (const auto belt = belt_of(term.enters)) {
-      all.push_back({value_at(place, term.of, term.direction_rad),
+      all.push_back({value_at(place, term.of, term.direction_rad()),
                      system.units[unit].by_reading.col(as_index(*belt))});
       continue;
     }

@@ -36,13 +36,6 @@ namespace chaintrue::grid::diagnosis {
 //     rows += own.rows * f(own.v);
 // \endcode
 
-/// The variable of a law, and where it enters.
-struct LawTerm {
-  Coordinate of = Coordinate::x;
-  Enters enters = Enters::left;
-  double direction_rad = 0.0;  ///< of Coordinate::across and Enters::along
-};
-
 /// The variables of the system's mechanism, except Coordinate::across.
 std::vector<Coordinate> law_variables(const RegressorSystem& system);
 
@@ -63,18 +56,12 @@ struct LawRows {
 /// without a number for a law of the visits.
 std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit, const LawTerm& term);
 
-struct LawCurve : LawTerm {
-  LawShape shape = LawShape::linear;
-  int towards = 0;
-  double from = 0.0;
-  double to = 0.0;
+struct LawCurve : LawForm {
   /// Place and scale in units of the variable, for a wave waves over the span; a single 0 if there
   /// is no choice.
   std::vector<double> grid;
   std::vector<double> mass;  ///< prior of each, of sum 1
   double share = 0.0;        ///< among all laws, of sum 1
-  double span() const { return to - from; }
-  double middle() const { return 0.5 * (from + to); }
 };
 
 /// Where a step may lie, evenly over a range, in the unit of its variable: the middle of each gap
@@ -98,6 +85,8 @@ bool is_continuous(LawShape shape);
 /// Prior density of a grid point, up to a factor.
 double density_at(const LawCurve& curve, double at);
 
+/// The factor of one amplitude of a law at one value of its variable; `at` as LawCurve::grid.
+double basis_at(const LawForm& law, double at, Index column, double v);
 /// Whitened rows that a law's amplitudes add to at some points of its grid, one after the other: all rows by columns_of().
 MatrixXd law_columns(const RegressorSystem& system, const LawCurve& curve,
                      const std::vector<double>& at);

@@ -90,7 +90,6 @@ class LawSearch {
         const std::size_t kernel = system_.family().kernel_of(context.discrepancy);
         if (kernels.size() == 2 || contains(kernels, kernel)) continue;
         kernels.push_back(kernel);
-        system_.prepare(context.discrepancy);
       }
       first_.push_back(context);
     }
@@ -114,7 +113,7 @@ class LawSearch {
     std::vector<LawPoint> all;
     for (const LawCurve& curve : *curves_) {
       for (const auto k : each_index(curve.grid))
-        all.push_back({&curve, curve.grid[k], curve.mass[k]});
+        all.push_back({{curves_, &curve}, curve.grid[k], curve.mass[k]});
     }
     weigh(all);
     std::vector<std::vector<LawPoint>> of_curve;
@@ -150,7 +149,7 @@ class LawSearch {
         const double from = points[as_size(k)].at;
         const double to = points[as_size(k) + 1].at;
         for (int step = 1; step < kFiner; ++step)
-          finer.push_back({&curve, from + (to - from) * step / kFiner});
+          finer.push_back({points.front().curve, from + (to - from) * step / kFiner});
       }
       weigh(finer);
       append_all(points, finer);
@@ -195,7 +194,7 @@ class LawSearch {
     const MatrixXd weights = system_.log_weights(contexts, columns);
     for (const auto k : each_index(chosen)) {
       const LawPoint& own = chosen[k];
-      laws.push_back({number_, {curves_, own.curve}, own.at, own.mass});
+      laws.push_back({own, number_});
       laws.back().log_weight = log_sum_of(weights.col(as_index(k))) + own.log_prior();
       if (!without_.empty()) laws.back().without = besides(without_.front());
     }

@@ -30,8 +30,8 @@ class LawModel {
            const std::optional<MatrixXd>& law = {})
       : system_(a.system),
         marginalised_(marginalised),
-        pattern_(marginalised.kept(
-            discrepancy_columns(a.system, marginalised, besides.discrepancy))),
+        pattern_(
+            marginalised.kept(discrepancy_columns(a.system, marginalised, besides.discrepancy))),
         columns_(a.system.g.dense(besides.causes)) {
     if (besides.discrepancy >= 0)
       process_ = discrepancy_of(a.system, marginalised, besides.discrepancy);
@@ -81,8 +81,7 @@ class LawModel {
         own, 1.0,
         linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
     if (process_) {
-      const auto [of_next, of_both] =
-          discrepancy_at(next, *process_, system_, marginalised_.kept);
+      const auto [of_next, of_both] = discrepancy_at(next, *process_, system_, marginalised_.kept);
       across += of_both.transpose();
       own += of_next;
     }

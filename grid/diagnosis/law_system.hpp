@@ -25,16 +25,6 @@ struct LawContext {
   friend auto operator<=>(const LawContext&, const LawContext&) = default;
 };
 
-/// A curve at one place, period or scale.
-struct LawPoint {
-  const LawCurve* curve = nullptr;
-  double at = 0.0;
-  double mass = 0.0;                   ///< prior, among the points of the curve
-  double log_weight = kMinusInfinity;  ///< without its prior, in the first contexts
-  /// Prior among all hypotheses.
-  double log_prior() const { return std::log(kLawPrior * curve->share * mass); }
-};
-
 class LawSystem {
  public:
   /// `number` of one of the comparison's marginalised systems; `sets` of the system's regressors.
@@ -64,7 +54,7 @@ class LawSystem {
     std::vector<ColumnSet> of_point;
     MatrixXd laws(own_.e.size(), 0);
     for (auto point = points.begin(); point != points.end();) {
-      const LawCurve* curve = point->curve;
+      const auto& curve = point->curve;
       Index count = laws.cols();
       std::vector<double> at;
       for (; point != points.end() && point->curve == curve; ++point) {
@@ -79,9 +69,6 @@ class LawSystem {
     take_columns(reduced(marginalised_, laws));
     return of_point;
   }
-
-  /// Prepares the equations of this discrepancy for many sets of laws.
-  void prepare(int discrepancy) { basis_.prepare(family().kernel_of(discrepancy)); }
 
   /// Each set without a discrepancy, then with each of them.
   std::vector<LawContext> contexts() const {
@@ -168,7 +155,6 @@ class LawSystem {
     own_.regressors.resize(as_size(g.cols()), law);
     given_.clear();
     discrepancy_ = -1;
-    basis_.forget();
     plain_ = normal_equations(own_.regressors, marginalised_,
                               numbers_below<int>(own_.regressors.size()), g);
   }

@@ -113,7 +113,7 @@ std::string in_words(const Law& law) {
   };
   return fmt::format(fmt::runtime(kSentences[as_size(law.shape)]),
                      fmt::arg("size", words_of(0, 1.0)), fmt::arg("second", words_of(3, 1.0)),
-                     fmt::arg("slope", words_of(0, unit.slope_factor / (law.to - law.from))),
+                     fmt::arg("slope", words_of(0, unit.slope_factor / law.span())),
                      fmt::arg("per", unit.slope_words), fmt::arg("at", words_of(1, unit.factor)),
                      fmt::arg("unit", unit.words),
                      fmt::arg("side", law.towards > 0 ? "beyond" : "below"),
@@ -210,9 +210,9 @@ std::string variable_of(const Law& law, const Bed& bed) {
                                              "T",
                                              "T",
                                              "n"};  // by Coordinate, of chains
-  const double direction = law.direction_deg * std::numbers::pi / 180.0;
   return fmt::format(fmt::runtime(kVariables[as_size(law.of)]),
-                     fmt::arg("cos", std::cos(direction)), fmt::arg("sin", std::sin(direction)),
+                     fmt::arg("cos", std::cos(law.direction_rad())),
+                     fmt::arg("sin", std::sin(law.direction_rad())),
                      fmt::arg("right", 0.5 * bed.width_mm), fmt::arg("top", 0.5 * bed.height_mm));
 }
 
@@ -262,21 +262,20 @@ DeclaredParameter place_of(const Law& law) {
           .nominal = std::clamp(law.parameters[1].value, law.from, law.to),
           .lower = law.from,
           .upper = law.to,
-          .prior_sigma = std::max(law.parameters[1].sigma, 0.01 * (law.to - law.from))};
+          .prior_sigma = std::max(law.parameters[1].sigma, 0.01 * law.span())};
 }
 
 /// The parameters size_mm and, if there is one, the place.
 std::string formula_of(const Law& law, const Bed& bed) {
   const std::string v = variable_of(law, bed);
-  const double span = law.to - law.from;
-  const std::string over_span = with_unit(law, span);
+  const std::string over_span = with_unit(law, law.span());
   const std::string place = fmt::format("place_{}", unit_of(law.of));
   switch (law.shape) {
     case LawShape::linear:
-      return fmt::format("size_mm * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), over_span);
+      return fmt::format("size_mm * ({} - {:.6g}) / {}", v, law.middle(), over_span);
     case LawShape::square:
       return fmt::format("size_mm * (({} - {:.6g}) / {})^2", v, law.parameters[1].value,
-                         with_unit(law, 0.5 * span));
+                         with_unit(law, 0.5 * law.span()));
     case LawShape::step:
       return fmt::format("size_mm * step({} - {})", v, place);
     case LawShape::kink:
@@ -291,7 +290,7 @@ std::string formula_of(const Law& law, const Bed& bed) {
     case LawShape::harmonics:
       break;
   }
-  const std::string turn = fmt::format("2 * pi * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to),
+  const std::string turn = fmt::format("2 * pi * ({} - {:.6g}) / {}", v, law.middle(),
                                        with_unit(law, law.parameters[1].value));
   if (law.shape == LawShape::wave) return fmt::format("size_mm * sin({} + phase_rad)", turn);
   // The shape of one period is kept: the harmonic scales and shifts with the wave.
@@ -311,11 +310,9 @@ std::string entrance_of(const Law& law) {
       return "side * cos(phi) * ";
     case Enters::y:
       return "-sin(phi) * ";
-    case Enters::along: {
-      const double direction = law.direction_deg * std::numbers::pi / 180.0;
-      return fmt::format("({:.6f} * side * cos(phi) - {:.6f} * sin(phi)) * ", std::cos(direction),
-                         std::sin(direction));
-    }
+    case Enters::along:
+      return fmt::format("({:.6f} * side * cos(phi) - {:.6f} * sin(phi)) * ",
+                         std::cos(law.direction_rad()), std::sin(law.direction_rad()));
     default:
       return "";
   }

@@ -148,17 +148,9 @@ FoundLaw law_of(const Analysis& a, const LawPoints& points, double log_all) {
   const WeighedLaw& best =
       **max_element(of_curve, ascending([](const WeighedLaw* own) { return log_density(*own); }));
   std::erase_if(of_curve, [&](const WeighedLaw* own) { return own->curve != best.curve; });
-  const LawCurve& curve = *best.curve;
-  Law law;
-  law.of = curve.of;
-  law.shape = curve.shape;
-  law.enters = curve.enters;
+  Law law{*best.curve};
   law.probability = averaged_over_parts(a, best, std::min(sum, 1.0));
   law.shape_probability = std::min(likeliest->second / sum, 1.0);
-  law.direction_deg = curve.direction_rad * 180.0 / std::numbers::pi;
-  law.towards = curve.towards;
-  law.from = curve.from;
-  law.to = curve.to;
   law.parameters = estimates(best, of_curve);
   measure(a, best, law);
   law.points = residuals_about(a, best, law);

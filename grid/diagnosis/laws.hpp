@@ -8,12 +8,15 @@
 /// those of the posterior over its curve.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_curves.hpp"
+#include "grid/statistics.hpp"
 #include "interp/eigen.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -36,17 +39,22 @@ struct ActsBesides {
   int discrepancy = -1;
 };
 
-/// One law at one point of its grid, over all contexts.
-struct WeighedLaw {
-  std::size_t marginalised = 0;           ///< of the comparison's systems, in which it was weighed
+/// A curve at one place, period or scale.
+struct LawPoint {
   std::shared_ptr<const LawCurve> curve;  ///< one for all its points
   double at = 0.0;                        ///< as LawCurve::grid
-  double mass = 0.0;                      ///< prior of the point, among those of the curve
-  double log_weight = 0.0;                ///< mass of the point included
-  ActsBesides with{};                     ///< in the best context
-  ActsBesides without{};                  ///< in the best context if no law acts
-  VectorXd amplitude{};                   ///< given the best context
-  MatrixXd covariance{};                  ///< of these
+  double mass = 0.0;                      ///< prior, among the points of the curve
+  double log_weight = kMinusInfinity;     ///< without its prior, in the first contexts
+  /// Prior among all hypotheses.
+  double log_prior() const { return std::log(kLawPrior * curve->share * mass); }
+};
+/// The same over all contexts, its prior in the weight.
+struct WeighedLaw : LawPoint {
+  std::size_t marginalised = 0;  ///< of the comparison's systems, in which it was weighed
+  ActsBesides with{};            ///< in the best context
+  ActsBesides without{};         ///< in the best context if no law acts
+  VectorXd amplitude{};          ///< given the best context
+  MatrixXd covariance{};         ///< of these
 
   /// There is one column for each amplitude, in all rows.
   MatrixXd columns(const RegressorSystem& system) const {

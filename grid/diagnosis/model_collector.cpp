@@ -48,13 +48,13 @@ double score_alone(const Regressor& regressor, double c, double square) {
   return regressor.fixed ? 2.0 * c - square : c * c / square;
 }
 
-ModelCollector::ModelCollector(const RegressorSystem& system, MarginalisedSystem& marginalised,
-                               std::size_t number, const SearchLimits& limits)
+ModelCollector::ModelCollector(const RegressorSystem& system, ModelComparison& comparison,
+                               const SearchLimits& limits)
     : system_(system),
-      marginalised_(marginalised),
-      number_(number),
+      comparison_(comparison),
+      number_(comparison.marginalised_systems.size() - 1),
       limits_(limits),
-      noise_(system.noise_dof, marginalised.kept.size()),
+      noise_(system.noise_dof, marginalised().kept.size()),
       best_(kMinusInfinity) {}
 
 double ModelCollector::consider(const ColumnSet& set, int discrepancy,
@@ -72,7 +72,7 @@ double ModelCollector::consider(const ColumnSet& set, int discrepancy,
   model.larger_noise = evidence.larger_noise;
   best_ = std::max(best_, model.log_weight);
   const double weight = model.log_weight;
-  if (keeps(set.size(), discrepancy, weight)) models_.push_back(std::move(model));
+  if (keeps(set.size(), discrepancy, weight)) comparison_.models.push_back(std::move(model));
   return weight;
 }
 
@@ -84,7 +84,7 @@ bool ModelCollector::keeps(std::size_t size, int discrepancy, double weight) con
 }
 
 double ModelCollector::log_prior_of(const RegressorSet& regressors, int discrepancy) const {
-  double value = marginalised_.log_outliers + log_prior(system_, regressors, discrepancy >= 0);
+  double value = marginalised().log_outliers + log_prior(system_, regressors, discrepancy >= 0);
   if (discrepancy >= 0) value += system_.discrepancies->log_share_of(discrepancy);
   return value;
 }
@@ -160,7 +160,5 @@ void search_by_beam(const NormalEquations& equations, int discrepancy, ModelColl
     parents = std::move(children);
   }
 }
-
-std::vector<CandidateModel> ModelCollector::take() { return std::exchange(models_, {}); }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -22,12 +22,13 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
 double score_alone(const Regressor& regressor, double c, double square);
 class ModelCollector {
  public:
-  /// `number` is the marginalised system's in its comparison; the references must outlive this.
-  ModelCollector(const RegressorSystem& system, MarginalisedSystem& marginalised,
-                 std::size_t number, const SearchLimits& limits);
+  /// In the last marginalised system of a comparison, which takes the models. The references must outlive
+  /// this.
+  ModelCollector(const RegressorSystem& system, ModelComparison& comparison,
+                 const SearchLimits& limits);
 
   const RegressorSystem& system() const { return system_; }
-  MarginalisedSystem& marginalised() const { return marginalised_; }
+  MarginalisedSystem& marginalised() const { return comparison_.marginalised_systems[number_]; }
   const SearchLimits& limits() const { return limits_; }
 
   /// Returns a set's weight and keeps the set if relevant; minus infinity if it is impossible.
@@ -39,16 +40,13 @@ class ModelCollector {
 
   double best() const { return best_; }
   const NoiseDensity& noise() const { return noise_; }
-  /// Moves out all that are kept so far.
-  std::vector<CandidateModel> take();
 
  private:
   const RegressorSystem& system_;
-  MarginalisedSystem& marginalised_;
+  ModelComparison& comparison_;
   std::size_t number_;
   const SearchLimits& limits_;
   NoiseDensity noise_;
-  std::vector<CandidateModel> models_;
   double best_;
 };
 
@@ -106,18 +104,15 @@ std::vector<double> search_given_discrepancies(const NormalEquations& plain,
 /// discrepancy.
 class SetSearch {
  public:
-  /// `number` is the marginalised system's in its comparison; all references must outlive the
-  /// search.
-  SetSearch(const RegressorSystem& system, MarginalisedSystem& marginalised, std::size_t number,
-            const SearchLimits& limits)
-      : collector_(system, marginalised, number, limits), sets_(equations_, -1, collector_) {}
+  /// As ModelCollector.
+  SetSearch(const RegressorSystem& system, ModelComparison& comparison, const SearchLimits& limits)
+      : collector_(system, comparison, limits), sets_(equations_, -1, collector_) {}
 
   SetSearch(const SetSearch&) = delete;
 
-  std::vector<CandidateModel> run();
-  /// Call after run(). For these kernels; sets their weights.
-  std::vector<CandidateModel> run_given_discrepancies(const Indices& kernels,
-                                                      std::vector<double>& kernel_weight);
+  void run();
+  /// Call after run(). Returns the largest weight that each of these kernels was found to have.
+  std::vector<double> run_given_discrepancies(const Indices& kernels);
   /// Largest weight so far.
   double best() const { return collector_.best(); }
   const Flags& outliers() const { return collector_.marginalised().outliers; }

@@ -161,9 +161,7 @@ Indices by_weight(const Indices& kernels, const std::vector<double>& weight) {
 class Comparer {
  public:
   Comparer(const RegressorSystem& system, const Flags& excluded, const ComparisonOptions& options)
-      : system_(system), excluded_(excluded), options_(options) {
-    comparison_.marginalised_systems.reserve(kMostOutlierSets);
-  }
+      : system_(system), excluded_(excluded), options_(options) {}
 
   void compare_with(const std::vector<Flags>& sets) {
     std::deque<SetSearch> searches;
@@ -172,8 +170,7 @@ class Comparer {
       auto& systems = comparison_.marginalised_systems;
       if (systems.size() == kMostOutlierSets) break;
       systems.push_back(marginalise(system_, outliers));
-      searches.emplace_back(system_, systems.back(), systems.size() - 1, options_.search);
-      take(searches.back().run());
+      searches.emplace_back(system_, comparison_, options_.search).run();
       best = std::max(best, searches.back().best());
     }
     if (options_.discrepancies) {
@@ -193,10 +190,6 @@ class Comparer {
   ModelComparison& comparison() { return comparison_; }
 
  private:
-  void take(std::vector<CandidateModel> models) {
-    std::move(models.begin(), models.end(), std::back_inserter(comparison_.models));
-  }
-
   void look_alongside_likeliest(std::deque<SetSearch>& searches) {
     auto order = numbers_below(searches.size());
     stable_sort(order, descending([&](std::size_t k) { return searches[k].best(); }));
@@ -211,8 +204,7 @@ class Comparer {
                             : !options_.kernels.empty()
                                 ? options_.kernels
                                 : numbers_below(system_.discrepancies->kernels.size());
-    std::vector<double> weight;
-    take(search.run_given_discrepancies(kernels, weight));
+    const std::vector<double> weight = search.run_given_discrepancies(kernels);
     if (first) comparison_.kernels = by_weight(kernels, weight);
   }
 

@@ -70,7 +70,7 @@ RegressorSet best_of_each_cause(const RegressorSystem& system,
 
 }  // namespace
 
-std::vector<CandidateModel> SetSearch::run() {
+void SetSearch::run() {
   const RegressorSystem& system = collector_.system();
   const MarginalisedSystem& marginalised = collector_.marginalised();
   const std::size_t few = collector_.limits().of_a_cause;
@@ -78,17 +78,15 @@ std::vector<CandidateModel> SetSearch::run() {
       system, marginalised, few == 0 ? columns() : best_of_each_cause(system, marginalised, few));
   if (few > 0) {
     search_by_beam(equations_, -1, collector_);
-    return collector_.take();
+    return;
   }
   sets_.weigh({});
   for (const Index k : each_below(equations_.ge.size())) sets_.weigh({k});
   pairs();
   sets_.grow(2, {.parents = kBeam}, [&](const ColumnSet& parent) { return extensions(parent); });
-  return collector_.take();
 }
 
-std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& kernels,
-                                                               std::vector<double>& kernel_weight) {
+std::vector<double> SetSearch::run_given_discrepancies(const Indices& kernels) {
   std::vector<WeighedSet> leading;
   for (std::size_t size = 2; size <= kMostCauses; ++size) {
     std::vector<WeighedSet> own = sets_.of_size(size);
@@ -101,8 +99,7 @@ std::vector<CandidateModel> SetSearch::run_given_discrepancies(const Indices& ke
     RegressorSet& regressors = likeliest.emplace_back();
     for (const Index i : own.set) regressors.push_back(equations_.columns[as_size(i)]);
   }
-  kernel_weight = search_given_discrepancies(equations_, likeliest, kernels, collector_);
-  return collector_.take();
+  return search_given_discrepancies(equations_, likeliest, kernels, collector_);
 }
 
 RegressorSet SetSearch::columns() const {

@@ -155,6 +155,10 @@ constexpr std::array kKinds = {Kind{Removal::What::point, "point", "points"},
                                Kind{Removal::What::distance, "distance", "distances"},
                                Kind{Removal::What::hole, "hole", "holes"}};
 
+bool is_of_line(Removal::What what) {
+  return what == Removal::What::column || what == Removal::What::row;
+}
+
 std::vector<const Removal*> of_kind(const Stability& stability, Removal::What what, bool changing) {
   std::vector<const Removal*> found;
   for (const Removal& removal : stability.removals) {
@@ -190,8 +194,8 @@ std::string named_places(const Diagnosis& diagnosis, const Kind& kind,
   const bool single = removals.size() == 1;
   const std::string where = joined(places, "and", ", ");
   const std::string_view noun = single ? kind.one : kind.many;
-  const bool line = kind.what == Removal::What::column || kind.what == Removal::What::row;
-  return line ? fmt::format("the {} at {}", noun, where) : fmt::format("{} {}", noun, where);
+  return is_of_line(kind.what) ? fmt::format("the {} at {}", noun, where)
+                               : fmt::format("{} {}", noun, where);
 }
 
 std::string fate(const Removal& removal) {
@@ -209,8 +213,7 @@ std::string fate(const Removal& removal) {
 /// Whether a column or row that was left out holds the point.
 bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point) {
   auto* found = find_where(diagnosis.points, having(&PointPicture::index, point));
-  const bool is_line = line.what == Removal::What::column || line.what == Removal::What::row;
-  if (!is_line || found == nullptr) return false;
+  if (!is_of_line(line.what) || found == nullptr) return false;
   const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
   return std::abs(at_mm - line.at_mm) < kLineGapMm;
 }

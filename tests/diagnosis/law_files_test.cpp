@@ -73,14 +73,7 @@ Law law_of(Coordinate of, LawShape shape, Enters enters) {
 
 /// Its amplitudes in the order of a curve's columns.
 LawCurve curve_of(const Law& law, Eigen::VectorXd& amplitude, double& at) {
-  LawCurve curve;
-  curve.of = law.of;
-  curve.shape = law.shape;
-  curve.enters = law.enters;
-  curve.direction_rad = law.direction_deg * std::numbers::pi / 180.0;
-  curve.towards = law.towards;
-  curve.from = law.from;
-  curve.to = law.to;
+  LawCurve curve{law};
   const double size = law.parameters[0].value;
   amplitude = Eigen::VectorXd::Constant(1, size);
   at = law.parameters.size() > 1 ? law.parameters[1].value : 0.0;
@@ -146,7 +139,7 @@ TEST_P(EveryLaw, AgreesAsFileColumnsAndFunction) {
   const double tolerance = moves_tool ? 0.05 : 1e-4;
   EXPECT_LT((as_columns - *as_effect).norm(), tolerance * as_columns.norm());
   const SystemPlace& place = a.system.places.front();
-  const double v = value_at(place, law.of, curve.direction_rad);
+  const double v = value_at(place, law.of, curve.direction_rad());
   if (law.enters == Enters::left) {
     const auto& unit = a.system.units.front();
     const Eigen::VectorXd rows = unit.places.front().by_chain.col(0) * value_of(law, v);
