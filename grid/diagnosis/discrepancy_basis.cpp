@@ -46,6 +46,7 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSy
     own.trace = marginalised.discrepancy_trace[kernels[k]] = gram.trace();
     if (own.trace > 0.0) {
       own.tridiagonal = linear::Tridiagonal(std::move(gram));
+      own.tridiagonal.rotate_in_place(own.rows);
     } else {
       own.rows.resize(0, own.rows.cols());
     }
@@ -53,11 +54,9 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system, MarginalisedSy
 }
 
 DiscrepancyBasis::GivenKernel::GivenKernel(const NormalEquations& plain, const Kernel& kernel)
-    : plain_(&plain), kernel_(&kernel) {
-  MatrixXd with = linear::product(kernel.rows, plain.rows);
-  kernel.tridiagonal.rotate_in_place(with);
-  rotated_ = with.transpose();
-}
+    : plain_(&plain),
+      kernel_(&kernel),
+      rotated_(linear::product(kernel.rows, plain.rows).transpose()) {}
 
 DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double strength) const {
   // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry next to each

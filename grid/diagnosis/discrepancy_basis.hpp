@@ -34,7 +34,7 @@ class DiscrepancyBasis {
 
  private:
   struct Kernel {
-    MatrixXd rows;  ///< B', r x N
+    MatrixXd rows;  ///< Q'B', r x N
     double trace = 0.0;
     linear::Tridiagonal tridiagonal{};  ///< Q and J
   };
