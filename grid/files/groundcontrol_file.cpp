@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/groundcontrol_settings.hpp"
 #include "grid/files/machine_checks.hpp"
 #include "grid/files/number_text.hpp"

@@ -41,8 +41,8 @@ function(chaintrue_hold_instances target)
   endif()
 endfunction()
 
-# chaintrue_compile_together(target): its sources in batches of at most 12 files and 70 kB of text: an edit takes at most
-# 20 s and about 1 GB, and no core waits long for the last one.
+# chaintrue_compile_together(target): its sources in batches of at most 12 files and 90 kB of text. They take about as long as each
+# other, so that no core waits for a last one.
 function(chaintrue_compile_together target)
   if(NOT CHAINTRUE_UNITY_BUILD)
     return()
@@ -60,7 +60,7 @@ function(chaintrue_compile_together target)
     endif()
     math(EXPR files "${files} + 1")
     math(EXPR bytes "${bytes} + ${size}")
-    if(files GREATER 12 OR bytes GREATER 70000)
+    if(files GREATER 12 OR bytes GREATER 90000)
       math(EXPR batch "${batch} + 1")
       set(files 1)
       set(bytes ${size})
