@@ -61,6 +61,9 @@ MatrixXd field_entry(const DiscrepancyField& field, const RegressorSystem& syste
   return field.alone ? MatrixXd(unit.by_reading.col(*field.alone)) : unit.by_reading;
 }
 
+/// The largest residual of a field's unit variance that is rounding.
+constexpr double kFieldRounding = 1e-13;
+
 /// Places and units of two systems as one: the rows of `b` behind those of `a`.
 RegressorSystem joined(const RegressorSystem& a, const RegressorSystem& b) {
   RegressorSystem both;
@@ -80,7 +83,7 @@ RegressorSystem joined(const RegressorSystem& a, const RegressorSystem& b) {
 /// factorisation (H. Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428,
 /// algorithm 1).
 template <class CovarianceOf>
-MatrixXd pivoted_factor(Index n, double least, const CovarianceOf& covariance) {
+MatrixXd low_rank(Index n, double least, const CovarianceOf& covariance) {
   MatrixXd factor(n, std::min<Index>(n, 32));  // with room for more
   Index rank = 0;
   VectorXd left(n);
@@ -101,21 +104,13 @@ MatrixXd pivoted_factor(Index n, double least, const CovarianceOf& covariance) {
   return factor.leftCols(rank);
 }
 
-/// The combinations of components through which a field enters: its direction, or each component
-/// by itself.
-std::vector<VectorXd> entries_of(const DiscrepancyField& field, Index components) {
-  if (const auto direction = entry_direction(field)) return {*direction};
-  return mapped(each_below(components),
-                [&](Index c) { return VectorXd(VectorXd::Unit(components, c)); });
-}
-
 }  // namespace
 
 MatrixXd low_rank(const MatrixXd& covariance, double share) {
   const Index n = covariance.rows();
   const double most = n > 0 ? covariance.diagonal().maxCoeff() : 0.0;
   if (!(most > 0.0)) return MatrixXd(n, 0);
-  return pivoted_factor(n, share * most, [&](Index i, Index j) { return covariance(i, j); });
+  return low_rank(n, share * most, [&](Index i, Index j) { return covariance(i, j); });
 }
 
 std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
@@ -126,7 +121,7 @@ std::vector<MatrixXd> field_factor(const RegressorSystem& system, const Discrepa
     for (const SystemPlace& place : system.places)
       arguments.push_back(field_argument(field, place, component));
   }
-  const MatrixXd factor = pivoted_factor(std::ssize(arguments), least, [&](Index i, Index j) {
+  const MatrixXd factor = low_rank(std::ssize(arguments), least, [&](Index i, Index j) {
     return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
   });
   const Index second = factor.rows() - std::ssize(system.places);
@@ -145,29 +140,26 @@ std::vector<MatrixXd> field_factor(const RegressorSystem& system, const Discrepa
   return parts;
 }
 
-MatrixXd kernel_factor(const DiscrepancyKernel& kernel, Index rows,
-                       const FactorOfField& factor_of) {
-  MatrixXd all(rows, 0);
-  for (const DiscrepancyField& field : kernel.fields) {
-    const std::vector<MatrixXd> parts = factor_of(field);
-    if (parts.empty()) continue;
-    for (const VectorXd& entry : entries_of(field, std::ssize(parts))) {
-      const Index rank = parts.front().cols();
-      all.conservativeResize(rows, all.cols() + rank);
-      all.rightCols(rank) = entry[0] * parts[0];
-      for (std::size_t c = 1; c < parts.size(); ++c)
-        all.rightCols(rank) += entry[as_index(c)] * parts[c];
-    }
-  }
-  return all / std::sqrt(as_double(kernel.fields.size()));
+std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components) {
+  if (const auto direction = entry_direction(field)) return {*direction};
+  const auto count = as_index(components);
+  return mapped(each_below(count),
+                [&](Index c) { return VectorXd(VectorXd::Unit(count, c)); });
 }
 
 MatrixXd discrepancy_factor(const RegressorSystem& system, const DiscrepancyKernel& kernel) {
-  // The largest residual of a field's unit variance that is rounding.
-  constexpr double kFieldRounding = 1e-13;
-  MatrixXd all = kernel_factor(kernel, system.e.size(), [&](const DiscrepancyField& field) {
-    return field_factor(system, field, kFieldRounding);
-  });
+  MatrixXd all(system.e.size(), 0);
+  for (const DiscrepancyField& field : kernel.fields) {
+    const std::vector<MatrixXd> parts = field_factor(system, field, kFieldRounding);
+    for (const VectorXd& entry : entries_of(field, parts.size())) {
+      const Index rank = all.cols();
+      all.conservativeResize(Eigen::NoChange, rank + parts.front().cols());
+      all.rightCols(all.cols() - rank).setZero();
+      for (const auto c : each_index(parts))
+        all.rightCols(all.cols() - rank) += entry[as_index(c)] * parts[c];
+    }
+  }
+  all /= std::sqrt(as_double(kernel.fields.size()));
   // The lengths' fields are one, and together more than the rows.
   return kernel.of_lengths() ? low_rank(linear::outer(all), kFieldRounding) : all;
 }

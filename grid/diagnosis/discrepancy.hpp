@@ -20,7 +20,6 @@
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -48,7 +47,7 @@ struct DiscrepancyField {
   double across_rad = 0.0;                ///< from x, of Coordinate::across
   /// For FieldEntry::lengths the one length that it disturbs; absent: each of them.
   std::optional<Index> alone{};
-  auto operator<=>(const DiscrepancyField&) const = default;
+  bool operator==(const DiscrepancyField&) const = default;
 };
 
 struct DiscrepancyKernel {
@@ -105,11 +104,11 @@ DiscrepancyElsewhere discrepancy_at(const RegressorSystem& there, const Discrepa
 MatrixXd low_rank(const MatrixXd& covariance, double share);
 
 /// A field's effect on all rows through each component of its entry, n x r each, what is left of the
-/// field's unit variance at any place below `least`. It does not depend on its direction.
+/// field's unit variance at any place below `least`.
 std::vector<MatrixXd> field_factor(const RegressorSystem& system, const DiscrepancyField& field,
                                    double least);
-using FactorOfField = std::function<std::vector<MatrixXd>(const DiscrepancyField&)>;
-/// The columns of a kernel from those of its fields.
-MatrixXd kernel_factor(const DiscrepancyKernel& kernel, Index rows, const FactorOfField& factor_of);
+/// The combinations of components through which a field enters: its direction, or each component
+/// by itself.
+std::vector<VectorXd> entries_of(const DiscrepancyField& field, std::size_t components);
 
 }  // namespace chaintrue::grid::diagnosis

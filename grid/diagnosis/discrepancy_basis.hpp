@@ -17,29 +17,22 @@
 /// and 2.1.5, and 8.3.1 for the tridiagonal form.)
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "grid/diagnosis/evidence.hpp"
 #include "interp/eigen.hpp"
-#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 class DiscrepancyBasis {
  public:
   /// For these kernels (numbers in the system's family). Notes their traces in the marginalised
-  /// system.
+  /// system. Both references must outlive this.
   DiscrepancyBasis(const RegressorSystem& system, MarginalisedSystem& marginalised,
                    const Indices& kernels);
+  ~DiscrepancyBasis();
 
- private:
-  struct Kernel {
-    MatrixXd rows;  ///< Q'B', r x N
-    double trace = 0.0;
-    linear::Tridiagonal tridiagonal{};  ///< Q and J
-  };
-
- public:
   /// Inner products of the residual and of some columns with what turns a kernel tridiagonal.
   class GivenKernel {
    public:
@@ -65,18 +58,27 @@ class DiscrepancyBasis {
     Half half(double strength) const;
     /// Replaces rows E'BQ by E'BQH'.
     static void apply(const Half& half, MatrixXd& lines);
-    const NormalEquations* plain_;  ///< without a discrepancy
-    const Kernel* kernel_;
-    MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
-
-    GivenKernel(const NormalEquations& plain, const Kernel& kernel);
+    const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
+    double trace_ = 0.0;
+    ArrayXd on_;           ///< r, J's diagonal
+    ArrayXd subdiagonal_;  ///< r - 1, the one next to it
+    MatrixXd rotated_;     ///< E'BQ, (1 + columns) x r
   };
-  /// `plain`: normal equations of the columns without a discrepancy; they and this must outlive the result.
-  GivenKernel given(std::size_t kernel, const NormalEquations& plain) const {
-    return {plain, kernels_.at(kernel)};
-  }
+  /// Prepares `given` of this kernel for many sets of columns, at the cost of as many columns as the kernel has.
+  void prepare(std::size_t kernel);
+  /// Prepares these columns for `given` for all kernels at once, after which several threads may
+  /// call it.
+  void relate(const NormalEquations& plain);
+  /// Frees what `given` and `relate` keep of columns.
+  void forget();
+  /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
+  GivenKernel given(std::size_t kernel, const NormalEquations& plain);
 
  private:
+  class Fields;
+  struct Kernel;
+  const MarginalisedSystem& marginalised_;
+  std::unique_ptr<Fields> fields_;
   std::vector<Kernel> kernels_;
 };
 

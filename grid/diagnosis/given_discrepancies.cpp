@@ -155,7 +155,7 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
 }
 
 /// A separate beam search for every discrepancy.
-std::vector<double> search_all_by_beam(const DiscrepancyBasis& basis, const NormalEquations& plain,
+std::vector<double> search_all_by_beam(DiscrepancyBasis& basis, const NormalEquations& plain,
                                        const Indices& kernels, ModelCollector& collector) {
   const DiscrepancyFamily& family = *collector.system().discrepancies;
   const std::size_t step = collector.limits().strength_step;
@@ -179,7 +179,7 @@ std::vector<double> search_given_discrepancies(const NormalEquations& plain,
                                                const Indices& kernels, ModelCollector& collector) {
   const RegressorSystem& system = collector.system();
   MarginalisedSystem& marginalised = collector.marginalised();
-  const DiscrepancyBasis basis(system, marginalised, kernels);
+  DiscrepancyBasis basis(system, marginalised, kernels);
   if (collector.limits().of_a_cause > 0)
     return search_all_by_beam(basis, plain, kernels, collector);
   const NormalEquations few =
@@ -189,6 +189,7 @@ std::vector<double> search_given_discrepancies(const NormalEquations& plain,
   const auto strengths = as_int(family.strengths.size());
   std::vector<Scouted> scouted(kernels.size() * family.strengths.size());
   std::vector<double> of_kernel(kernels.size(), kMinusInfinity);
+  basis.relate(few);
   for_each_index(kernels.size(), [&](std::size_t k) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernels[k], few);
     for (const int strength : each_below(strengths)) {

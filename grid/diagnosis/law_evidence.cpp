@@ -90,6 +90,7 @@ class LawSearch {
         const std::size_t kernel = system_.family().kernel_of(context.discrepancy);
         if (kernels.size() == 2 || contains(kernels, kernel)) continue;
         kernels.push_back(kernel);
+        system_.prepare(context.discrepancy);
       }
       first_.push_back(context);
     }

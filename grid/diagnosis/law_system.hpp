@@ -70,6 +70,9 @@ class LawSystem {
     return of_point;
   }
 
+  /// Prepares the equations of this discrepancy for many sets of laws.
+  void prepare(int discrepancy) { basis_.prepare(family().kernel_of(discrepancy)); }
+
   /// Each set without a discrepancy, then with each of them.
   std::vector<LawContext> contexts() const {
     std::vector<LawContext> all;
@@ -155,6 +158,7 @@ class LawSystem {
     own_.regressors.resize(as_size(g.cols()), law);
     given_.clear();
     discrepancy_ = -1;
+    basis_.forget();
     plain_ = normal_equations(own_.regressors, marginalised_,
                               numbers_below<int>(own_.regressors.size()), g);
   }
