@@ -61,6 +61,9 @@ export function runNative(words, folder) {
   return {code: status, stdout, stderr};
 }
 
+/** How a page is asked whether something holds; asked at each frame, one that paints nothing would never answer. */
+const OFTEN = {polling: 100};
+
 /** A visit to the page. Errors that the page logs or throws are collected in `problems`. */
 export class Visit {
   problems = [];
@@ -113,7 +116,7 @@ export class Visit {
   async click(text) {
     for (let trial = 1; ; ++trial) {
       const button = await this.page.waitForFunction((wanted) =>
-        [...document.querySelectorAll("button")].find((one) => (one.getAttribute("aria-label") ?? one.textContent) === wanted && one.checkVisibility()), {}, text);
+        [...document.querySelectorAll("button")].find((one) => (one.getAttribute("aria-label") ?? one.textContent) === wanted && one.checkVisibility()), OFTEN, text);
       try {
         await button.asElement().click();
         return;
@@ -134,7 +137,7 @@ export class Visit {
   /** Opens the folded text of this summary. */
   async unfold(summary) {
     const found = await this.page.waitForFunction((wanted) =>
-      [...document.querySelectorAll("summary")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, summary);
+      [...document.querySelectorAll("summary")].find((one) => one.textContent === wanted && one.checkVisibility()), OFTEN, summary);
     if (!await found.evaluate((one) => one.parentElement.open)) await found.asElement().click();
   }
 
@@ -173,7 +176,7 @@ export class Visit {
   /** Waits until the visible text of `selector` contains `wanted`; returns the text. */
   async text(selector, wanted = "") {
     await this.page.waitForFunction((where, what) => [...document.querySelectorAll(where)].some((one) =>
-      one.checkVisibility() && one.textContent !== "" && one.textContent.includes(what)), {}, selector, wanted);
+      one.checkVisibility() && one.textContent !== "" && one.textContent.includes(what)), OFTEN, selector, wanted);
     return this.page.$$eval(selector, (found) => found.filter((one) => one.checkVisibility()).map((one) => one.textContent).join("\n"));
   }
 
