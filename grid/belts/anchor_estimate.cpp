@@ -29,7 +29,8 @@ double least_spread_mm(const MeasuredBelts& belts) {
   return std::max(kLeastSpreadMm, rounding_sigma_mm(lengths));
 }
 
-/// The anchors; sound with right ones right of the left ones, upper ones above the lower ones.
+/// Copies the anchors. The fit is sound if it converged with the right anchors right of the left ones and the
+/// upper ones above the lower ones.
 void take_anchors(const estimation::Estimate& estimate, AnchorFit& fit) {
   const AnchorVector a = estimate.mechanism->values().head<kAnchorUnknowns>();
   fit.state.anchors = a;
@@ -99,7 +100,7 @@ Counting without_nowhere_points(const MeasuredBelts& belts, const AnchorVector& 
   return are_few ? fewer : counting;
 }
 
-/// Of a fit with more noise no reading is rejected; empty: of none.
+/// Readings are rejected only if the fit's noise is at most this; if empty, never.
 using MostNoise = std::optional<double>;
 
 /// Without distances.

@@ -48,7 +48,7 @@ struct LawPoint {
   /// Prior among all hypotheses.
   double log_prior() const { return std::log(kLawPrior * curve->share * mass); }
 };
-/// The same over all contexts, its prior in the weight.
+/// A point weighed over all contexts; the weight includes its prior.
 struct WeighedLaw : LawPoint {
   std::size_t marginalised = 0;  ///< of the comparison's systems, in which it was weighed
   ActsBesides with{};            ///< in the best context

@@ -22,8 +22,8 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
 double score_alone(const Regressor& regressor, double c, double square);
 class ModelCollector {
  public:
-  /// In the last marginalised system of a comparison, which takes the models. The references must outlive
-  /// this.
+  /// Searches the last marginalised system of `comparison` and appends the models to it. The references must
+  /// outlive this.
   ModelCollector(const RegressorSystem& system, ModelComparison& comparison,
                  const SearchLimits& limits);
 
@@ -104,7 +104,7 @@ std::vector<double> search_given_discrepancies(const NormalEquations& plain,
 /// discrepancy.
 class SetSearch {
  public:
-  /// As ModelCollector.
+  /// The references must outlive this.
   SetSearch(const RegressorSystem& system, ModelComparison& comparison, const SearchLimits& limits)
       : collector_(system, comparison, limits), sets_(equations_, -1, collector_) {}
 

@@ -28,7 +28,8 @@ inline void add_weighted_rows(const JointProblem& joint, const VectorXd& weights
     rows += left.rows();
   }
   const auto counted = all.topRows(rows);
-  // The products of many rows cost less than their triangle, and half the digits do for noisy ones.
+  // For many rows, products are cheaper than a QR factorisation. They lose half of the digits, which noisy
+  // readings do not need.
   constexpr Index kRowsForEachUnknown = 4;
   if (joint.has_surface() && all.rows() > kRowsForEachUnknown * unknowns) {
     problem.add_products(rows, linear::gram(counted));

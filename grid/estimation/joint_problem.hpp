@@ -154,7 +154,7 @@ class JointProblem {
   MatrixXd covariance(const interp::PenalisedFit& fit) const {
     return linear::carried(to_values_, fit.corrected_covariance);
   }
-  /// Their order; a surface that there is not has zeros.
+  /// The order of values(). Without a surface, its coefficients are 0.
   FitColumns columns() const { return {unknowns_.of_set, basis_.size()}; }
 
   /// The state that a fit of the problem leads to.

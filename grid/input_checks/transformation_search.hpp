@@ -29,7 +29,7 @@
 
 namespace chaintrue::grid::input_checks {
 
-/// What two coordinates, or two lengths, of a row mean: A x + b of what they say.
+/// A suspected meaning of a row's two coordinates or lengths: A x + b of the numbers entered.
 struct Affine {
   Matrix2d by = Matrix2d::Identity();
   Vector2d plus = Vector2d::Zero();

@@ -15,7 +15,7 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-/// The list, by what marks and readings mean.
+/// Builds the list of transformations of marks and readings.
 class List : public Transformations<PlacedPoints> {
  public:
   List(const PointAccounts& accounts, const PlacedPoints& written)
@@ -155,7 +155,7 @@ struct Origin {
 };
 using Origins = std::vector<Origin>;
 
-/// Each also counted `back`.
+/// Each origin in both counting directions; `back` describes the second.
 Origins both_ways(const Origins& some, const char* back) {
   Origins all;
   for (const Origin& own : some) {

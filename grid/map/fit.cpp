@@ -21,7 +21,7 @@ namespace chaintrue::grid {
 
 namespace {
 
-/// Repeats are averaged; an empty crossing has zeros.
+/// Repeated readings are averaged; a crossing without a reading is 0.
 PerSide<MatrixXd> lengths_at(const LatticeNodes& nodes, const std::vector<LengthPoint>& points) {
   PerSide<MatrixXd> lengths_mm;
   for (const Side side : kSides) {

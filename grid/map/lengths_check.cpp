@@ -10,7 +10,7 @@
 namespace chaintrue::grid {
 namespace {
 
-/// The lengths that count.
+/// Numbers of the lengths that are used.
 ColumnSet counted(const observation::LengthsAtPlace& place) {
   auto lengths = numbers_below<Index>(place.lengths_mm.size());
   std::erase_if(lengths, [&](Index i) { return !place.counts(i); });

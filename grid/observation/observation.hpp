@@ -146,7 +146,7 @@ struct Columns {
   bool sheet = false;
 };
 
-/// A place of two chains for a view: what is read there, and whence it comes.
+/// A place on a two-chain machine as a view predicts it, with the machine's own reading and mark.
 struct ChainPlaceState : LengthCorrection::At {
   model::PointReading reading;  ///< of the machine alone
   MarkPoint mark;               ///< on the sheet; for a hole, where the machine puts it

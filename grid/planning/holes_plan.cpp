@@ -37,8 +37,8 @@ struct ToolError {
   MatrixXd whole;
 };
 
-/// Those where the machine has a pose, with the derivative by the unknowns of the position on the
-/// sheet that is cut with the chain lengths of the given one.
+/// The places that the machine can reach, each with the derivative of its cut position on the sheet by the
+/// unknowns.
 std::vector<PlannedPlace> planned_places(const Machine& machine,
                                          const std::vector<MarkPoint>& places) {
   const ReadingModel model(machine);

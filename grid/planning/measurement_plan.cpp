@@ -31,7 +31,7 @@ constexpr int kRasterRows = 24;
 /// Mirror images differ by rounding, less than this; the first one is kept.
 constexpr double kWorse = 1.0 + 1e-6;
 
-/// Of simulated readings at the marks.
+/// The map that simulated readings at the marks would give.
 tl::expected<CompensationMap, PlanFailure> planned_map(const Machine& machine,
                                                   const PlanRequest& request,
                                                   const std::vector<MarkPoint>& marks) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Many readings enter a fit by their products.
+// With many readings, a fit uses the products of their rows.
 #include "grid/estimation/joint_priors.hpp"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(WeightedRows, OfManyReadingsHaveTheirProducts) {
   EXPECT_NEAR(weighted.response.squaredNorm(), problem.response().dot(weighted_response),
               kRounding * weighted.response.squaredNorm());
   EXPECT_EQ(weighted.rows, (by_row.array() > 0.0).count());
-  // An unknown more than the design has is the response's.
+  // The design's unknowns, and one column for the response.
   EXPECT_EQ(weighted.design.rows(), design.cols() + 1);
 }
 

@@ -61,7 +61,7 @@ export function runNative(words, folder) {
   return {code: status, stdout, stderr};
 }
 
-/** How a page is asked whether something holds; asked at each frame, one that paints nothing would never answer. */
+/** Poll by time: polling by animation frame never ends while the page paints nothing. */
 const OFTEN = {polling: 100};
 
 /** A visit to the page. Errors that the page logs or throws are collected in `problems`. */
